@@ -10,7 +10,7 @@ const states = [
   ...joints.map((name) => ({ name, unit: 'rad', reach: 1 })),
   ...joints.map((name) => ({ name: `d ${name}`, unit: 'rad/s', reach: 6 })),
   { name: 'height', unit: 'm', reach: 0.1 },
-  { name: 'pitch', unit: 'rad', reach: 0.3 },
+  { name: 'pitch_of_the_trunk_as_filtered_by_the_estimator', unit: 'rad', reach: 0.3 },
 ]
 const WRONG = [
   { front: 0.4, middle: 0.2, hind: 0.1 },

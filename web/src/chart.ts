@@ -3,6 +3,7 @@ import * as Plot from '@observablehq/plot'
 import { INTERVAL_OPACITY, type Symbol } from './colours'
 import { largest, least } from './extent'
 import { number } from './format'
+import { linearTicks, logTicks, plainTick, wholeTicks } from './ticks'
 
 export interface Point {
   x: number
@@ -13,8 +14,10 @@ export interface Point {
   core?: [number, number]
   /** Drawn as a vertical bar. */
   interval?: [number, number]
-  /** The text shown when a reader points at it. */
+  /** The text shown when a reader points at it, instead of its numbers. */
   tip?: string
+  /** A line under its numbers there. */
+  note?: string
   hollow?: boolean
 }
 
@@ -53,11 +56,12 @@ export function chart(options: ChartOptions): SVGSVGElement {
   const { width, x, y, series, rule } = options
   const points = series.flatMap((one) => one.points.map((point) => ({ ...point, label: one.label })))
   const xs = points.map((point) => point.x)
+  const powers = y.percent || y.log ? {} : linearTicks(y.domain ?? series.flatMap(heights))
   const levels = y.log ? logTicks(y.domain ?? points.map((point) => point.y)) : undefined
   const plot = Plot.plot({
     width,
     height: options.height ?? 240,
-    marginLeft: 56,
+    marginLeft: powers.tickFormat ? 72 : 56,
     marginRight: 16,
     marginTop: y.label ? 24 : 10,
     marginBottom: 40,
@@ -80,7 +84,7 @@ export function chart(options: ChartOptions): SVGSVGElement {
         ? { tickFormat: '.0%' }
         : y.log
           ? { ...(levels ? { ticks: levels } : {}), tickFormat: plainTick }
-          : {}),
+          : powers),
     },
     marks: [
       ...series.flatMap((one) => bands(one, bandStrength(series))),
@@ -92,7 +96,7 @@ export function chart(options: ChartOptions): SVGSVGElement {
           x: 'x',
           y: 'y',
           title: (p: Point & { label: string }) =>
-            `${p.label}\n${p.tip ?? `${x.label} ${number(p.x)}\n${number(p.y)}`}`,
+            [p.label, p.tip ?? `${x.label} ${number(p.x)}\n${number(p.y)}`, p.note ?? []].flat().join('\n'),
           fill: 'var(--surface)',
           stroke: 'var(--muted)',
           fontSize: 12,
@@ -144,47 +148,6 @@ function axis(of: ChartOptions['x'] | ChartOptions['y'], ticks: number): Plot.Sc
     ...(of.log ? { type: 'log' as const } : { type: 'linear' as const }),
     ...(of.domain ? { domain: of.domain } : { nice: !of.log }),
   }
-}
-
-/** Every integer between the least and the largest, or every second, fifth, … */
-export function wholeTicks(values: number[], most: number): number[] {
-  if (values.length === 0) return []
-  const [low, high] = [Math.ceil(least(values)), Math.floor(largest(values))]
-  const step = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((size) => (high - low) / size < most) ?? 1000
-  const first = step === 1 ? low : Math.ceil(low / step) * step
-  return Array.from({ length: Math.floor((high - first) / step) + 1 }, (_, i) => first + i * step)
-}
-
-/** At most six powers of ten among these numbers; undefined, which leaves it to Plot, without two. */
-export function powersOfTen(values: number[]): number[] | undefined {
-  const exponents = values.filter((value) => value > 0).map(Math.log10)
-  const low = Math.ceil(least(exponents) - 1e-9)
-  const high = Math.floor(largest(exponents) + 1e-9)
-  if (exponents.length === 0 || high <= low) return undefined
-  const step = Math.ceil((high - low + 1) / 6)
-  return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => 10 ** (low + i * step))
-}
-
-/** Powers of ten, or 1, 2, 5, 10, … of these numbers; undefined, which leaves it to Plot, without two. */
-export function logTicks(values: number[]): number[] | undefined {
-  const powers = powersOfTen(values)
-  if (powers) return powers
-  const positive = values.filter((value) => value > 0)
-  const [low, high] = [least(positive), largest(positive)]
-  const first = Math.floor(Math.log10(low))
-  const between = [first, first + 1]
-    .flatMap((exponent) => ['1', '2', '5'].map((digit) => Number(`${digit}e${exponent}`)))
-    .filter((tick) => tick >= low && tick <= high)
-  return between.length > 1 ? between : undefined
-}
-
-/** A number of a logarithmic axis without the letters of Plot, to which 0.2 is 200m: 0.002 is 2·10⁻³. */
-export function plainTick(value: number): string {
-  const exponent = Math.floor(Math.log10(value) + 1e-9)
-  if (Math.abs(exponent) <= 2) return number(value)
-  const factor = Number((value / 10 ** exponent).toPrecision(3))
-  const power = '10' + [...String(exponent)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('')
-  return factor === 1 ? power : `${factor}·${power}`
 }
 
 /** Many bands over each other are lighter, so that what lies behind them is seen. */

@@ -252,6 +252,13 @@ export function present(value: Cell | undefined): value is number {
   return value !== null && value !== undefined
 }
 
+/** The first steps of a prediction, as long as half of its simulated episodes go on: few that are left look certain. */
+export function stepsOf(prediction: Columns): number {
+  const going = column(prediction, 'particles') ?? []
+  const end = going.findIndex((n) => present(n) && 2 * n < (going[0] ?? 0))
+  return end < 0 ? Infinity : end
+}
+
 /** Position of the largest number, the first of equals; 0 without any. */
 export function indexOfMax(cells: Cell[]): number {
   const numbers = cells.map((value) => value ?? -Infinity)

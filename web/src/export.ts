@@ -26,6 +26,8 @@ export interface Drawn {
 
 const MARGIN = 12
 const TITLE = 22
+/** From a line of a legend to the next. */
+const LINE = 18
 
 /** Panels side by side in one SVG that stands alone: in the colours of the light page, with a title and a legend. */
 export function svgOf(title: string, panels: Drawn[], columns: number, legend: LegendEntry[]): string {
@@ -33,7 +35,11 @@ export function svgOf(title: string, panels: Drawn[], columns: number, legend: L
   const width = Math.max(...panels.map(({ svg }) => size(svg, 'width'))) + MARGIN
   const height = Math.max(...panels.map(({ svg }) => size(svg, 'height'))) + TITLE + MARGIN
   const across = Math.min(columns, panels.length)
-  const all = { width: width * across + MARGIN, height: height * Math.ceil(panels.length / across) + 56 }
+  const least = Math.max(1.3 * lengthOf(title), ...legend.map(lengthOfEntry)) + 2 * MARGIN
+  const allWidth = Math.max(width * across + MARGIN, least)
+  const places = placesOf(legend, allWidth - 2 * MARGIN)
+  const top = 50 + LINE * (places.at(-1)?.row ?? 0)
+  const all = { width: allWidth, height: height * Math.ceil(panels.length / across) + top + 6 }
   const root = s('svg', {
     xmlns: 'http://www.w3.org/2000/svg',
     viewBox: `0 0 ${all.width} ${all.height}`,
@@ -47,32 +53,53 @@ export function svgOf(title: string, panels: Drawn[], columns: number, legend: L
     s('rect', { ...all, fill: '#ffffff' }),
     s('text', { x: MARGIN, y: 20, 'font-size': 15, 'font-weight': 600 }, title),
   )
-  root.append(drawnLegend(legend))
+  root.append(drawnLegend(legend, places))
   panels.forEach((panel, i) => {
     const x = MARGIN + width * (i % across)
-    const y = 50 + height * Math.floor(i / across)
+    const y = top + height * Math.floor(i / across)
     const copy = panel.svg.cloneNode(true) as SVGSVGElement
     copy.querySelectorAll('[aria-label=tip], .cursor').forEach((part) => part.remove())
     copy.setAttribute('x', String(x))
     copy.setAttribute('y', String(y + TITLE))
-    root.append(s('text', { x, y: y + 14, 'font-weight': 600 }, panel.title), copy)
+    const squeezed = 1.1 * lengthOf(panel.title) > width - MARGIN
+    const fitted = squeezed ? { textLength: width - MARGIN, lengthAdjust: 'spacingAndGlyphs' } : {}
+    root.append(s('text', { x, y: y + 14, 'font-weight': 600, ...fitted }, panel.title), copy)
   })
   return new XMLSerializer()
     .serializeToString(root)
     .replaceAll(/var\((--[\w-]+)\)/g, (_, name: string) => lightValue(name))
 }
 
-function drawnLegend(legend: LegendEntry[]): SVGElement {
-  const group = s('g', { transform: `translate(${MARGIN}, 38)` })
-  let x = 0
-  for (const entry of legend) {
-    group.append(
-      s('g', { transform: `translate(${x}, -4)` }, ...entryMarks(entry)),
-      s('text', { x: x + widthOf(entry) + 6, y: 0 }, entry.label),
-    )
-    x += widthOf(entry) + 26 + 6.6 * entry.label.length
-  }
-  return group
+/** About as wide as a text is, in px. */
+function lengthOf(text: string): number {
+  return 6.6 * text.length
+}
+
+function lengthOfEntry(entry: LegendEntry): number {
+  return widthOf(entry) + 6 + lengthOf(entry.label)
+}
+
+/** The places of a legend's entries: from left to right in rows that are not wider than that. */
+export function placesOf(legend: LegendEntry[], width: number): { x: number; row: number }[] {
+  let [x, row] = [0, 0]
+  return legend.map((entry) => {
+    const length = lengthOfEntry(entry)
+    if (x > 0 && x + length > width) [x, row] = [0, row + 1]
+    const place = { x, row }
+    x += length + 20
+    return place
+  })
+}
+
+function drawnLegend(legend: LegendEntry[], places: { x: number; row: number }[]): SVGElement {
+  const drawn = legend.flatMap((entry, i) => {
+    const { x, row } = places[i] as (typeof places)[0]
+    return [
+      s('g', { transform: `translate(${x}, ${LINE * row - 4})` }, ...entryMarks(entry)),
+      s('text', { x: x + widthOf(entry) + 6, y: LINE * row }, entry.label),
+    ]
+  })
+  return s('g', { transform: `translate(${MARGIN}, 38)` }, ...drawn)
 }
 
 /** "light-dark(A, B)" is A; see style.css. */

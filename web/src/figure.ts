@@ -30,7 +30,10 @@ export function figure(options: FigureOptions): Figure {
   let layout: Layout = { columns: 1, width: 0, panels: [] }
   let panels: Drawn[] = []
   let drawnWidth = 0
-  const afterDrawing = () => options.afterDrawing?.()
+  const afterDrawing = () => {
+    svg.disabled = drawn().length === 0
+    options.afterDrawing?.()
+  }
   const draw = (into: HTMLElement, some: Panel[]) => fill(into, { ...layout, panels: some }, options.title)
   const folds = options.folds ? new Folds(draw, afterDrawing) : null
   const body = folds?.element ?? grid
@@ -60,13 +63,16 @@ export function figure(options: FigureOptions): Figure {
       svgOf(options.title, drawn(), layout.columns, options.legend ?? []),
       'image/svg+xml',
     )
+  const svg = saveButton(options.title, 'SVG', saveSvg)
+  svg.disabled = true // until something is drawn
   const element = h(
     'figure',
     { id: options.name },
-    heading(options.title, [
-      { label: 'SVG', save: saveSvg },
-      { label: 'CSV', save: () => downloadCsv(options.name, options.table()) },
-    ]),
+    heading(
+      options.title,
+      svg,
+      saveButton(options.title, 'CSV', () => downloadCsv(options.name, options.table())),
+    ),
     options.about ? h('figcaption', {}, options.about) : null,
     options.controls,
     options.legend?.length ? legend(options.legend) : null,
@@ -95,19 +101,12 @@ function whenNearOrIdle(element: Element, then: () => void) {
   window.addEventListener('beforeprint', draw, { once: true })
 }
 
-function heading(title: string, files: { label: string; save: () => void }[]): HTMLElement {
-  return h(
-    'div',
-    { class: 'heading' },
-    h('h3', {}, title),
-    h(
-      'div',
-      { class: 'save' },
-      ...files.map(({ label, save }) =>
-        h('button', { type: 'button', onclick: save, 'aria-label': `Save “${title}” as ${label}` }, label),
-      ),
-    ),
-  )
+function heading(title: string, ...buttons: HTMLButtonElement[]): HTMLElement {
+  return h('div', { class: 'heading' }, h('h3', {}, title), h('div', { class: 'save' }, ...buttons))
+}
+
+function saveButton(title: string, label: string, save: () => void): HTMLButtonElement {
+  return h('button', { type: 'button', onclick: save, 'aria-label': `Save “${title}” as ${label}` }, label)
 }
 
 interface TableOptions {
@@ -126,7 +125,10 @@ export function tableFigure({ name, title, about, columns, lines, table }: Table
   return h(
     'figure',
     { id: name },
-    heading(title, [{ label: 'CSV', save: () => downloadCsv(name, table()) }]),
+    heading(
+      title,
+      saveButton(title, 'CSV', () => downloadCsv(name, table())),
+    ),
     about ? h('figcaption', {}, about) : null,
     h(
       'div',

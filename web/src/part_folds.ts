@@ -4,7 +4,7 @@ import type { Fold } from './folds'
 import { count, percent } from './format'
 import type { Panel } from './panels'
 import { partsOf, positionOf, TWO_SCREENS, type Part } from './parts'
-import type { ByState } from './state_errors'
+import type { ByState } from './ranges'
 
 export interface StatePanel extends Panel {
   /** The state, or another variable, that it shows. */

@@ -1,18 +1,20 @@
 // One trial: the robot moving, and every state with its prediction, under one time slider.
 import { moveCursor } from './chart'
-import { column, isSolid, present, type Episode, type Motion } from './data'
+import { column, isSolid, present, stepsOf, type Episode, type Motion } from './data'
 import { h } from './dom'
 import { figure, type Figure } from './figure'
 import { number } from './format'
 import { hasMoments, momentLegend, momentSwitch } from './moments'
 import { partFolds, partsOfRobot } from './part_folds'
+import { actionDomains, rangesOf } from './ranges'
 import { stage, type Stage } from './stage'
 import { stage3d } from './stage3d'
-import { rangesOf, relativeErrors } from './state_errors'
+import { relativeErrors } from './state_errors'
 import { MEAN, ROBOT, stateLegend, statePanels, stateTable } from './states'
 import { walkPanels, walkTable, walks } from './walk'
 
 const WRONG = 'Where the line leaves the band, the model was wrong about the robot.'
+const ENDS = ' A prediction ends where fewer than half of its simulated episodes go on.'
 const BY_PARTS =
   ' States stand by body part, those first that the model got most wrong in this trial. The error of a state is the root ' +
   'mean square over the trial, relative to the range in which the state moved in all trials.'
@@ -90,19 +92,25 @@ class Player {
   private stateFigure(): Figure {
     const parts = partsOfRobot(this.episodes)
     const ranges = rangesOf(this.episodes)
-    const isPredicted = this.episodes.some(({ prediction }) => prediction)
-    const folds = () => partFolds(parts, statePanels(this.episode, this.moments), relativeErrors(this.episode, ranges))
+    const domains = actionDomains(this.episodes)
+    const predictions = this.episodes.flatMap(({ prediction }) => (prediction ? [prediction] : []))
+    const panels = () => statePanels(this.episode, domains, this.moments)
+    const about = [
+      predictions.length > 0 ? WRONG : '',
+      predictions.some((one) => stepsOf(one) < Infinity) ? ENDS : '',
+      parts.length > 0 ? BY_PARTS : '',
+    ]
     return figure({
       name: 'trajectory',
       title: 'States, action and reward of the trial',
-      about: `${isPredicted ? WRONG : ''}${parts.length > 0 ? BY_PARTS : ''}`,
+      about: about.join(''),
       legend: [
         ...stateLegend(this.episodes.find(({ prediction }) => prediction) ?? this.episode),
         ...(this.moments ? [momentLegend()] : []),
       ],
       ...(this.moments ? { controls: momentSwitch((on) => this.showMoments(on)) } : {}),
-      panels: () => statePanels(this.episode, this.moments),
-      ...(parts.length > 0 ? { folds } : {}),
+      panels,
+      ...(parts.length > 0 ? { folds: () => partFolds(parts, panels(), relativeErrors(this.episode, ranges)) } : {}),
       table: () => stateTable(this.episode),
       minWidth: 280,
       columns: 3,

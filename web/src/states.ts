@@ -1,12 +1,23 @@
 // States, action and reward of a trial, each with its prediction.
 import { chart, fit, heights, type Domain, type Point, type Series } from './chart'
 import { PREDICTED, REAL } from './colours'
-import { column, present, variables, withUnit, type Cell, type Columns, type Episode, type Variable } from './data'
+import {
+  column,
+  present,
+  stepsOf,
+  variables,
+  withUnit,
+  type Cell,
+  type Columns,
+  type Episode,
+  type Variable,
+} from './data'
 import type { Row } from './export'
+import { number } from './format'
 import type { LegendEntry } from './legend'
 import { momentSeries } from './moments'
 import type { StatePanel } from './part_folds'
-import { robotCells } from './state_errors'
+import { robotCells } from './ranges'
 
 export const ROBOT: LegendEntry = { label: 'the robot', colour: REAL }
 export const MEAN: LegendEntry = { label: 'the model’s predicted mean', colour: PREDICTED, dash: '6 3' }
@@ -35,11 +46,16 @@ function isNoisy(trajectory: Columns): boolean {
   })
 }
 
-export function statePanels({ trajectory, prediction }: Episode, moments: boolean): StatePanel[] {
+/** domains: of the actions. */
+export function statePanels(
+  { trajectory, prediction }: Episode,
+  domains: Map<string, Domain>,
+  moments: boolean,
+): StatePanel[] {
   if (!trajectory) return []
   const times = column(trajectory, 'time') ?? []
   const { states, actions } = variables(trajectory)
-  const panel = (variable: Variable, series: Series[]): StatePanel => ({
+  const panel = (variable: Variable, series: Series[], domain = domainOf(series)): StatePanel => ({
     of: variable.name,
     title: withUnit(variable),
     draw: (width) =>
@@ -47,7 +63,7 @@ export function statePanels({ trajectory, prediction }: Episode, moments: boolea
         width,
         height: 190,
         x: { label: 'time (s)', domain: [0, times.filter(present).at(-1) ?? 1] },
-        y: { label: '', ...domainOf(series) },
+        y: { label: '', ...domain },
         series,
         cursor: true,
       }),
@@ -57,15 +73,19 @@ export function statePanels({ trajectory, prediction }: Episode, moments: boolea
   const predicted = (name: string) => (prediction ? predictions(name, prediction, moments) : [])
   return [
     ...states.map((state) => panel(state, [...stateSeries(state, times, trajectory), ...predicted(state.name)])),
-    ...actions.map((action) => panel(action, [held(recorded(action.name), times)])),
+    ...actions.map((action) => panel(action, [held(recorded(action.name), times)], domains.get(action.name))),
     panel({ name: 'reward', unit: '' }, [recorded('reward'), ...predicted('reward')]),
   ]
 }
 
+/** The least width of a panel's domain, relative to its largest number: less is rounding. */
+const LEAST_SPAN = 1e-3
+
 /** The domain of all that is drawn; a prediction that runs away is cut, so that what happened stays readable. */
 function domainOf(series: Series[]): Domain {
-  const real = fit(series.filter(({ colour }) => colour === REAL).flatMap(heights)).domain
-  const all = fit(series.flatMap(heights)).domain
+  const domain = (some: Series[]) => fit(some.flatMap(heights), { span: LEAST_SPAN }).domain
+  const real = domain(series.filter(({ colour }) => colour === REAL))
+  const all = domain(series)
   if (!real || !all) return {}
   const room = 2 * (real[1] - real[0])
   return { domain: [Math.max(all[0], real[0] - room), Math.min(all[1], real[1] + room)] }
@@ -85,19 +105,30 @@ function predictions(name: string, prediction: Columns, moments: boolean): Serie
   )
 }
 
-function predictedSeries(name: string, prediction: Columns): Series {
+/** The simulated episodes, while at least half of them go on. Rewards are of all, also of those that have ended. */
+export function predictedSeries(name: string, prediction: Columns): Series {
   const at = (part: string) => column(prediction, `${name} ${part}`) ?? []
   const [mean, low, lower, upper, high] = ['mean', '5%', '25%', '75%', '95%'].map(at)
   const pair = (a: Cell | undefined, b: Cell | undefined): [number, number] | undefined =>
     present(a) && present(b) ? [a, b] : undefined
-  const points = (column(prediction, 'time') ?? []).flatMap((x, i): Point[] => {
+  const [going, steps] =
+    name === 'reward' ? [[], Infinity] : [column(prediction, 'particles') ?? [], stepsOf(prediction)]
+  const points = (column(prediction, 'time') ?? []).slice(0, steps).flatMap((x, i): Point[] => {
     const y = mean?.[i]
     if (!present(x) || !present(y)) return []
     const band = pair(low?.[i], high?.[i])
     const core = pair(lower?.[i], upper?.[i])
-    return [{ x, y, ...(band ? { band } : {}), ...(core ? { core } : {}) }]
+    return [{ x, y, ...(band ? { band } : {}), ...(core ? { core } : {}), ...left(going, i) }]
   })
   return { label: 'model, mean', colour: PREDICTED, points, dash: '6 3', width: 1.5 }
+}
+
+/** A note of how many simulated episodes go on, unless all do. */
+function left(going: Cell[], step: number): { note?: string } {
+  const [all, now] = [going[0], going[step]]
+  return present(all) && present(now) && now < all
+    ? { note: `${number(now)} of ${number(all)} simulated episodes go on` }
+    : {}
 }
 
 function line(label: string, colour: string, times: Cell[], values: Cell[] | undefined): Series {

@@ -2,38 +2,11 @@
 // console, on any request, and on what it does not show. PACKAGES: the folder of node_modules. FOLDER: has the pages of
 // these names; report.sh makes them.
 import assert from 'node:assert/strict'
-import { Reader } from './reader.mjs'
+import { cursors, moveSlider, play, Reader } from './reader.mjs'
 
 const [chromium, packages, folder] = process.argv.slice(2)
 const reader = await Reader.start(chromium, packages)
 const open = (page, settings, visit) => reader.open(`${folder}/${page}.html`, settings, visit)
-
-const cursors = (page) =>
-  page.locator('#trajectory line.cursor').evaluateAll((lines) => lines.map((line) => line.getAttribute('x1')))
-const robot = (page) => page.locator('.stage').innerHTML()
-
-/** The slider moves the robot and the cursors, by mouse and by keyboard. */
-async function moveSlider(page) {
-  const slider = page.getByRole('slider', { name: 'Time' })
-  await slider.scrollIntoViewIfNeeded()
-  await page.locator('#trajectory line.cursor').first().waitFor({ state: 'attached' })
-  const before = [await robot(page), await cursors(page)]
-  await slider.fill('20')
-  const moved = [await robot(page), await cursors(page)]
-  assert.notEqual(moved[0], before[0])
-  assert.ok(before[1].length > 0 && moved[1].every((x, i) => x !== before[1][i]), 'a cursor stands still')
-  await slider.press('ArrowRight')
-  assert.equal(await slider.getAttribute('aria-valuetext'), '1.05 s')
-  assert.notEqual(await robot(page), moved[0])
-}
-
-async function play(page) {
-  await page.getByRole('slider', { name: 'Time' }).fill('0')
-  await page.getByRole('combobox', { name: 'Speed' }).selectOption('0.25×') // a busy machine looks seldom
-  await page.getByRole('button', { name: 'Play' }).press('Enter')
-  await page.getByText(/^0\.[1-9]\d \/ 2\.50 s$/).waitFor()
-  await page.getByRole('button', { name: 'Pause' }).press('Enter')
-}
 
 await open('run/report', {}, async (page) => {
   assert.equal(await page.locator('h1').textContent(), 'gp-mi on pendubot')
@@ -226,6 +199,7 @@ for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme
 // The robot of many.mjs.
 const JOINTS = ['hip', 'knee', 'ankle']
 const WHOLE = 'the robot as a whole'
+const LONG = 'pitch_of_the_trunk_as_filtered_by_the_estimator'
 const WORST_FIRST = {
   1: ['front true', 'middle false', 'hind false', `${WHOLE} false`],
   2: ['hind true', 'middle false', 'front false', `${WHOLE} false`],
@@ -285,8 +259,18 @@ await open('many/report', {}, async (page) => {
   for (const title of ['front', 'middle', 'hind'].flatMap(panelsOf)) assert.ok(svg.includes(`>${title}<`), title)
   await page.locator('#trajectory').getByRole('button', { name: 'Fold all' }).press('Enter')
   assert.equal(await panels.count(), 0)
+  assert.ok(
+    await page.getByRole('button', { name: 'Save “States, action and reward of the trial” as SVG' }).isDisabled(),
+  )
+  await page.locator('#trajectory').getByRole('button', { name: 'Open all' }).press('Enter')
 })
-await open('many/report', { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }, worstFirst)
+await open('many/report', { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }, async (page) => {
+  await worstFirst(page)
+  for (const figure of ['#trajectory', '#prediction-error']) {
+    await page.locator(figure).getByRole('button', { name: 'Open all' }).press('Enter') // a long name among others
+    await page.locator(`${figure} h4`, { hasText: LONG }).waitFor()
+  }
+})
 
 await reader.loseWebGL()
 await open('walker/report', {}, async (page) => {

@@ -73,3 +73,31 @@ export class Reader {
     await this.browser.close()
   }
 }
+
+/** Where the cursors of a trial's panels stand. */
+export const cursors = (page) =>
+  page.locator('#trajectory line.cursor').evaluateAll((lines) => lines.map((line) => line.getAttribute('x1')))
+const robot = (page) => page.locator('.stage').innerHTML()
+
+/** The slider moves the robot and the cursors, by mouse and by keyboard. */
+export async function moveSlider(page) {
+  const slider = page.getByRole('slider', { name: 'Time' })
+  await slider.scrollIntoViewIfNeeded()
+  await page.locator('#trajectory line.cursor').first().waitFor({ state: 'attached' })
+  const before = [await robot(page), await cursors(page)]
+  await slider.fill('20')
+  const moved = [await robot(page), await cursors(page)]
+  assert.notEqual(moved[0], before[0])
+  assert.ok(before[1].length > 0 && moved[1].every((x, i) => x !== before[1][i]), 'a cursor stands still')
+  await slider.press('ArrowRight')
+  assert.equal(await slider.getAttribute('aria-valuetext'), '1.05 s')
+  assert.notEqual(await robot(page), moved[0])
+}
+
+export async function play(page) {
+  await page.getByRole('slider', { name: 'Time' }).fill('0')
+  await page.getByRole('combobox', { name: 'Speed' }).selectOption('0.25×') // a busy machine looks seldom
+  await page.getByRole('button', { name: 'Play' }).press('Enter')
+  await page.getByText(/^0\.[1-9]\d \/ 2\.50 s$/).waitFor()
+  await page.getByRole('button', { name: 'Pause' }).press('Enter')
+}
