@@ -31,6 +31,14 @@ std::string type_of(const py::object& result) {
 
 bool is_masked(const py::object& result) { return py::hasattr(result, "filled"); }
 
+/// NumPy would take None for NaN.
+bool has_none(const py::array& array) {
+  if (array.dtype().kind() != 'O') return false;
+  for (const py::handle each : array.attr("flat"))
+    if (each.is_none()) return true;
+  return false;
+}
+
 /// Raises ValueError where NumPy makes no array of a result. What is masked is NaN.
 template <class Array>
 Array array_of(const py::object& result, const std::string& name) {
@@ -39,6 +47,7 @@ Array array_of(const py::object& result, const std::string& name) {
   const py::array given = py::array::ensure(
       is_masked(result) ? result.attr("astype")("float64").attr("filled")(py::float_(std::nan(""))) : result);
   if (given && given.dtype().kind() == 'c') refuse(name, "complex numbers", kWanted);
+  if (given && has_none(given)) refuse(name, "None among its numbers", kWanted);
   if (const Array array = Array::ensure(given)) return array;
   refuse(name, type_of(result), kWanted);
 }

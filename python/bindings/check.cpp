@@ -7,6 +7,7 @@
 
 #include "python/bindings/work.hpp"
 #include "rehearse/check/complaints.hpp"
+#include "rehearse/core/errors.hpp"
 
 namespace rehearse::python {
 namespace {
@@ -16,12 +17,16 @@ struct Found {
   check::Tried tried;
 };
 
-Found check(const Robot& robot, const std::string& name, bool plant) {
+/// shown: a page is to show how the plant moves.
+Found check(const Robot& robot, const std::string& name, bool plant, bool shown) {
   std::optional<Found> found;
   work_with(robot, {}, [&](const Robot& own, const experiment::RunOptions& options) {
     const experiment::Catalogue catalogue = own.catalogue();
     scenario::Scenario scenario = catalogue.scenario_or_throw(name)->build();
     if (!plant) scenario.make_plant = nullptr;
+    if (shown && !scenario.make_plant)
+      throw InvalidInput(
+          "out: there is no plant whose motion it could show; in a copy, make the dynamics of a prior the plant");
     if (scenario.require_ready)
       scenario.require_ready(plant ? scenario::PlantUse::driven : scenario::PlantUse::left_alone);
     own.try_out(scenario);
@@ -32,14 +37,30 @@ Found check(const Robot& robot, const std::string& name, bool plant) {
     for (const Limit& limit : scenario.task.limits) limits.push_back(limit.name);
     const auto stoppable = make_stoppable(options.evaluator, options.stop);
     found = {std::move(states), std::move(limits), check::try_out(scenario, *stoppable)};
+    const std::vector<std::string> faults = scenario.faults ? scenario.faults() : std::vector<std::string>();
+    found->tried.notes.insert(found->tried.notes.end(), faults.begin(), faults.end());
   });
   return *found;
 }
 
+/// Empty where there are no values, since there was no step.
 py::dict by_state(const std::vector<std::string>& states, const Vector& values) {
   py::dict dict;
-  for (std::size_t i = 0; i < states.size(); ++i) dict[py::str(states[i])] = values(static_cast<Index>(i));
+  for (std::size_t i = 0; i < states.size() && values.size() > 0; ++i)
+    dict[py::str(states[i])] = values(static_cast<Index>(i));
   return dict;
+}
+
+/// A prior that plays the robot has no errors: the steps are its own.
+py::list of_priors(const Found& found) {
+  using namespace py::literals;
+  py::list priors;
+  for (const check::PriorTried& prior : found.tried.priors) {
+    const bool plays = found.tried.played && priors.empty();
+    priors.append(py::dict("name"_a = prior.name, "errors"_a = plays ? py::dict() : by_state(found.states, prior.error),
+                           "failed"_a = prior.failed, "rows_per_s"_a = prior.rows_per_s, "notes"_a = prior.notes));
+  }
+  return priors;
 }
 
 }  // namespace
@@ -48,21 +69,17 @@ void add_check(py::module_& module) {
   using namespace py::literals;
   module.def(
       "check",
-      [](const Robot& robot, const std::string& name, bool plant) {
-        const Found found = check(robot, name, plant);
-        py::list priors;
-        for (const check::PriorTried& prior : found.tried.priors)
-          priors.append(py::dict("name"_a = prior.name, "errors"_a = by_state(found.states, prior.error),
-                                 "failed"_a = prior.failed, "rows_per_s"_a = prior.rows_per_s,
-                                 "notes"_a = prior.notes));
+      [](const Robot& robot, const std::string& name, bool plant, bool shown) {
+        const Found found = check(robot, name, plant, shown);
         py::dict broke;
         for (std::size_t i = 0; i < found.limits.size(); ++i) broke[py::str(found.limits[i])] = found.tried.limits[i];
         return py::dict("steps"_a = found.tried.steps, "episodes"_a = found.tried.episodes,
+                        "played"_a = found.tried.played, "plant_failed"_a = found.tried.end.has_value(),
                         "ended"_a = found.tried.ended, "broke"_a = broke,
-                        "changes"_a = by_state(found.states, found.tried.change), "priors"_a = priors,
+                        "changes"_a = by_state(found.states, found.tried.change), "priors"_a = of_priors(found),
                         "notes"_a = found.tried.notes, "complaints"_a = check::complaints(found.tried));
       },
-      "robot"_a, "name"_a, "plant"_a);
+      "robot"_a, "name"_a, "plant"_a, "shown"_a);
 }
 
 }  // namespace rehearse::python

@@ -13,21 +13,20 @@
 namespace rehearse::python {
 namespace {
 
-using experiment::Catalogue, experiment::EvaluationRequest, experiment::PreparedEvaluation;
-using EvaluationWork = std::function<void(const Catalogue&, const PreparedEvaluation&, const Evaluator&)>;
+using experiment::EvaluationRequest, experiment::PreparedEvaluation;
+using EvaluationWork = std::function<void(const PreparedEvaluation&, const Evaluator&)>;
 
 /// Does the work with what is evaluated. Ctrl-C stops it.
 void with_evaluation(const Robot& robot, const EvaluationRequest& request, int threads, const EvaluationWork& work) {
   work_with(robot, {threads}, [&](const Robot& own, const experiment::RunOptions& options) {
-    const Catalogue catalogue = own.catalogue();
-    work(catalogue, experiment::prepare_evaluation(catalogue, experiment::read_run(catalogue, request.folder), request),
+    work(experiment::prepare_evaluation(experiment::read_run(own.catalogue(), request.folder), request),
          *make_stoppable(options.evaluator, options.stop));
   });
 }
 
 py::dict evaluate(const Robot& robot, const EvaluationRequest& request, int threads) {
   std::vector<experiment::Outcome> outcomes;
-  with_evaluation(robot, request, threads, [&](const auto&, const auto& prepared, const auto& evaluator) {
+  with_evaluation(robot, request, threads, [&](const auto& prepared, const auto& evaluator) {
     outcomes = experiment::evaluate(prepared, evaluator);
   });
   std::vector<double> returns;
@@ -48,11 +47,10 @@ py::dict evaluate(const Robot& robot, const EvaluationRequest& request, int thre
 /// The text of robustness.csv.
 std::string robustness(const Robot& robot, const EvaluationRequest& request, int threads) {
   std::string table;
-  with_evaluation(robot, request, threads,
-                  [&](const Catalogue& catalogue, const PreparedEvaluation& prepared, const Evaluator& evaluator) {
-                    const auto all = experiment::robustness(catalogue, prepared, evaluator);
-                    table = experiment::robustness_csv(all, prepared.about());
-                  });
+  with_evaluation(robot, request, threads, [&](const PreparedEvaluation& prepared, const Evaluator& evaluator) {
+    const auto all = experiment::robustness(prepared, evaluator);
+    table = experiment::robustness_csv(all, prepared.about());
+  });
   return table;
 }
 

@@ -27,8 +27,12 @@ void add_outputs(py::module_& module) {
       },
       "folder"_a, "trial"_a, "headline"_a, "share"_a);
   module.def(
-      "check_page", [](const std::string& path) { apps::check_output(apps::page_file(path, kPageArgument)); },
-      "path"_a);
+      "check_page",
+      [](const std::string& path, const std::string& share) {
+        apps::check_output(apps::page_file(path, kPageArgument));
+        apps::require_page_template(share);
+      },
+      "path"_a, "share"_a);
   module.def(
       "write_page",
       [](const std::string& path, const std::string& text) {

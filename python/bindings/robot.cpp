@@ -156,6 +156,11 @@ void Robot::try_out(const scenario::Scenario& scenario) const {
               .true_states = still,
               .actions = Matrix::Zero(T, task.action_size()),
               .rewards = Vector::Zero(T)});
+  // The plant's function gets one row, as the plant calls it. Robots with functions have no programs, which may move.
+  if (scenario.make_plant && scenario.oracle && !functions_.dynamics.empty()) {
+    Matrix dx(1, task.state_size());
+    scenario.oracle->change(X.topRows(1), U.topRows(1), scenario.oracle->parameters().values(), dx);
+  }
   for (const scenario::NamedPrior& prior : scenario.priors) {
     if (!functions_.dynamics.contains(prior.name)) continue;
     Matrix dX(kRows, task.state_size());
@@ -201,7 +206,7 @@ experiment::Catalogue Robot::catalogue(const robot_file::Functions& functions) c
   experiment::Catalogue catalogue = apps::catalogue();
   catalogue.read_robot = [functions](std::string_view text, const std::string& source,
                                      const scenario::ReadFile& read_file) {
-    return robot_file::builder(text, source, read_file, functions);
+    return robot_file::maker(text, source, read_file, functions);
   };
   return text_.empty() ? catalogue : catalogue.with_robot(text_, source_, folder_);
 }

@@ -12,6 +12,7 @@
 #include "rehearse/experiment/ask_tell.hpp"
 #include "rehearse/experiment/exported_policy.hpp"
 #include "rehearse/experiment/given_policy.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
@@ -74,8 +75,9 @@ void warn(const std::vector<std::string>& lines) {
 
 /// Other readings of the trials, such as a delay, where trials do not get better; none where nothing is found. What a
 /// prior raises there is no fault of the trials, which are done.
-Strings other_readings(const Robot& robot, const std::filesystem::path& folder, const experiment::RunOptions& options) {
-  auto [readings, read_on] = experiment::second_look(robot.catalogue(), folder, options);
+Strings other_readings(const Robot& robot, const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
+                       const experiment::RunOptions& options) {
+  auto [readings, read_on] = experiment::second_look(catalogue, folder, options);
   const py::gil_scoped_acquire locked;
   robot.failure()->forget_errors();
   if (!readings.empty()) readings.push_back(read_on);
@@ -92,7 +94,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
     warn(run.warnings);
     if (folder.empty()) folder = "runs/" + run_name(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
-    warn(other_readings(own, folder, options));
+    warn(other_readings(own, catalogue, folder, options));
   };
   resumable(robot, folder, [&] { work_with(robot, settings, run_all); });
   return folder.string();
@@ -101,8 +103,9 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
 void resume(const Robot& robot, const std::string& folder, std::optional<Index> trials, const Settings& settings) {
   const auto go_on = [&](const Robot& own, const experiment::RunOptions& options) {
     const auto until = trials ? std::optional<experiment::Until>(*trials) : std::nullopt;
-    experiment::resume_run(own.catalogue(), folder, until, options);
-    warn(other_readings(own, folder, options));
+    const experiment::Catalogue catalogue = experiment::with_robot_of_run(own.catalogue(), folder);
+    experiment::resume_run(catalogue, folder, until, options);
+    warn(other_readings(own, catalogue, folder, options));
   };
   resumable(robot, folder, [&] { work_with(robot, settings, go_on); });
 }
@@ -125,8 +128,9 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
   Strings readings;
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     experiment::TellRequest request{.files = {files.begin(), files.end()}, .stopped = stopped};
-    told = experiment::tell_run(own.catalogue(), folder, request, options);
-    if (told->trial) readings = other_readings(own, folder, options);
+    const experiment::Catalogue catalogue = experiment::with_robot_of_run(own.catalogue(), folder);
+    told = experiment::tell_run(catalogue, folder, request, options);
+    if (told->trial) readings = other_readings(own, catalogue, folder, options);
   });
   Strings logs, notes;
   for (const experiment::Log& log : told->logs) {
@@ -154,7 +158,7 @@ py::dict take_back(const Robot& robot, const std::string& folder, const Settings
 /// The contents of a run folder, without its tables.
 py::dict describe(const Robot& robot, const std::string& folder) {
   const experiment::RunStatus status = experiment::status_of(robot.to_look(), folder);
-  const auto& [resolved, history] = status.run;
+  const auto& [resolved, history, catalogue] = status.run;
   const std::vector<std::string> names = experiment::tunable_names(resolved.prior);
   const Spec& spec = resolved.spec;
   py::list trials;

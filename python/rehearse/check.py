@@ -19,7 +19,8 @@ from .tables import without_path
 @dataclass(frozen=True)
 class PriorChecked:
     """A prior on the plant's steps. errors: of each state, root mean square error of its change in a step, NaN where there is
-    no prediction. failed: rows without one. rows_per_s: on one thread. notes: on what may be wrong."""
+    no prediction; empty where this prior plays the robot. failed: rows without one. rows_per_s: on one thread. notes: on
+    what may be wrong."""
 
     name: str
     errors: dict[str, float]
@@ -30,12 +31,14 @@ class PriorChecked:
 
 @dataclass(frozen=True)
 class Checked:
-    """The findings of `check`. steps: of the plant, in so many episodes; ended: those that ended early; broke: of each limit,
-    those that broke it. changes: of each state, root mean square change in a step. notes: on what may be wrong with the
-    task; complaints: what is wrong; a line each."""
+    """The findings of `check`. steps: of the plant, in so many episodes; played: the first prior played the robot instead;
+    ended: episodes that ended early; broke: of each limit, those that broke it. changes: of each state, root mean square
+    change in a step; empty where there was no step. notes: on what may be wrong with the task or its programs;
+    complaints: what is wrong; a line each."""
 
     steps: int
     episodes: int
+    played: bool
     ended: int
     broke: dict[str, int]
     changes: dict[str, float]
@@ -46,15 +49,18 @@ class Checked:
     def __str__(self) -> str:
         early = [f"{self.ended} of {self.episodes} episodes ended early"] if self.ended else []
         early += [f"{count} of {self.episodes} episodes broke the limit {limit}" for limit, count in self.broke.items() if count]
-        lines = [", ".join([f"{self.steps} steps under random actions", *early]), *self.notes]
+        plays = " (the first prior plays the robot)" if self.played else ""
+        lines = [", ".join([f"{self.steps} steps under random actions{plays}", *early]), *self.notes]
         for prior in self.priors:
             failed = f", {prior.failed} rows failed" if prior.failed else ""
             lines.append(f"prior {prior.name}: {prior.rows_per_s:.2g} rows a second on one thread{failed}")
-            lines += [f"  {state}: a step changes it by {change:.3g}, the prior errs by {prior.errors[state]:.3g}"
-                      for state, change in self.changes.items()]
+            for state, change in self.changes.items():
+                errs = f", the prior errs by {prior.errors[state]:.3g}" if state in prior.errors else ""
+                lines.append(f"  {state}: a step changes it by {change:.3g}{errs}")
             lines += ["  " + note for note in prior.notes]
         noted = self.notes or any(prior.notes or prior.failed for prior in self.priors)
-        well = "nothing is broken, but see what is noted above" if noted else "all is well"
+        well = ("nothing was tried: there is no prior, and no plant that may move" if self.steps == 0 else
+                "nothing is broken, but see what is noted above" if noted else "all is well")
         return "\n".join([*lines, *(self.complaints or [well])])
 
 
@@ -63,8 +69,8 @@ def check(robot: Robots, *, plant: bool = True, out: Union[str, os.PathLike[str]
     (docs/does-not-learn.md).
 
     Where there is no plant, or plant=False, the first prior plays the robot. out: a page, "robot.html", that shows how the
-    plant moves in one more episode. A plant that is a real robot moves. Raises
-    InvalidInput, or what a function raises.
+    plant moves in one more episode; it is left out where the plant fails, which then does not move again. A plant that is
+    a real robot moves. Raises InvalidInput, or what a function raises.
 
     >>> print(rehearse.check(robot))
     """
@@ -72,10 +78,12 @@ def check(robot: Robots, *, plant: bool = True, out: Union[str, os.PathLike[str]
         raise InvalidInput("out shows the plant's motion: leave plant=False out")
     page = None if out is None else page_path(path_of("out", out))
     if page is not None:
-        _core.check_page(str(page))  # before the robot moves
-    found = _core.check(*robot_of(robot), truth("plant", plant))
-    priors = [PriorChecked(**prior) for prior in found.pop("priors")]
-    if page is not None:
+        from .__main__ import share
+
+        _core.check_page(str(page), str(share()))  # before the robot moves
+    found = _core.check(*robot_of(robot), truth("plant", plant), page is not None)
+    priors, failed = [PriorChecked(**prior) for prior in found.pop("priors")], found.pop("plant_failed")
+    if page is not None and not failed:
         _show_motion(robot, page)
     return Checked(priors=priors, **found)
 

@@ -119,7 +119,8 @@ class Environment:
         """Angles without jumps: a turn more or less where one leaves [-π, π], or [0, 2π], and comes in on the other side."""
         last = given if self._last is None else self._last
         both = np.array([last, given])
-        inside = [((both >= low - 1e-9) & (both <= low + 2 * math.pi + 1e-9)).all(axis=0) for low in (-math.pi, 0.0)]
+        little = 1e-6  # the bounds in single precision are up to 2e-7 beyond
+        inside = [((both >= low - little) & (both <= low + 2 * math.pi + little)).all(axis=0) for low in (-math.pi, 0.0)]
         wrapped = self._angles & (inside[0] | inside[1])
         if self._last is None:
             starts = np.array([state.start for state in self._task.states])
@@ -184,7 +185,9 @@ def is_environment(plant: Any) -> bool:
 
 
 def is_real(plant: Any) -> bool:
-    """A class whose objects have `end` drives a robot, of which there is one."""
+    """A class whose objects have `end` drives a robot, of which there is one; with some of its arguments, too."""
+    while isinstance(plant, partial):
+        plant = plant.func
     return callable(getattr(plant, "end", None))
 
 
@@ -195,6 +198,7 @@ def _made(make: Callable[[], Any], observe: Any, task: Task) -> Environment:
 def environment_maker(plant: Any, observe: Any, task: Task) -> Callable[[], Environment]:
     """Makes what plays the robot: of an environment, or of a function that makes one."""
     if is_environment(plant):
+        Environment(plant, observe, task)  # refuses what does not fit before there is a run
         return partial(Environment, plant, observe, task)
     if callable(plant):
         return partial(_made, plant, observe, task)

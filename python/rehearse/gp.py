@@ -31,6 +31,7 @@ class GaussianProcess:
         self._core: Union[_core.FittedGp, None] = None
         self._data: tuple[Array, Array] = (np.empty((0, 0)), np.empty((0, 0)))
         self._one, self._inputs = True, 0
+        self._tolerance_of_data = 0.0  # `tolerance` is that of the next fit
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
         """The arguments, as scikit-learn has them."""
@@ -112,10 +113,10 @@ class GaussianProcess:
         return {**self.__dict__, "_core": logs}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
+        self.__dict__.update({"_tolerance_of_data": state["tolerance"], **state})  # older pickles have one tolerance
         logs, self._core = state["_core"], None
         if logs is not None:
-            self._core = _core.condition_gp(*self._data, logs, self.tolerance)
+            self._core = _core.condition_gp(*self._data, logs, self._tolerance_of_data)
 
     def match_moments(self, mean: npt.ArrayLike, covariance: npt.ArrayLike) -> tuple[Array, Array, Array]:
         """Of an input N(mean (D), covariance (D × D)): mean (E) and covariance (E × E) of the function's values, and
@@ -162,6 +163,7 @@ class GaussianProcess:
     def _knowing(self, core: _core.FittedGp, X: Array, Y: Array, one: bool) -> GaussianProcess:
         """Takes what C++ has made of the data; where it refused them, the GP is as before."""
         self._core, self._data, self._one, self._inputs = core, (X, Y), one, X.shape[1]
+        self._tolerance_of_data = self.tolerance
         return self
 
     @property

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array
-from .checks import number, whole
+from .checks import number, numbers, whole
 
 
 def rk4(rates: Callable[..., Any], dt_s: float, substeps: int = 4) -> Callable[..., Array]:
@@ -44,4 +44,17 @@ class _Change:
         # Columns stay contiguous: NumPy's sine of others differs in its last bit with their address. The function has
         # copies, since it may write into what it is given.
         own = (np.array(given, order="F") for given in (states, actions))
-        return np.asfortranarray(self.rates(*own, **parameters))
+        given = self.rates(*own, **parameters)
+        if type(given) is not np.ndarray or given.dtype != float:
+            given = _numbers(given)
+        if given.shape != states.shape:
+            raise ValueError(f"rates returned an array of shape {given.shape}, must be {states.shape}")
+        return np.asfortranarray(given)
+
+
+def _numbers(given: Any) -> Array:
+    """What rates returned as an array of doubles. NumPy would take None for NaN."""
+    array = np.asanyarray(given)
+    if array.dtype == object and any(each is None for each in array.flat):
+        raise ValueError("rates returned None, must be an array of numbers")
+    return numbers("rates", given)

@@ -92,8 +92,8 @@ class Policy:
 
     @property
     def theta(self) -> Array:
-        """Its parameters."""
-        return self._core.theta
+        """Its parameters, a copy."""
+        return np.array(self._core.theta)
 
     @property
     def kind(self) -> str:

@@ -82,6 +82,7 @@ class Robot:
         self._dt_s = number("dt_s", dt_s)
         self._functions: list[tuple[Any, ...]] = []
         self.one_at_a_time = False  # its plant: one object, or a real robot
+        _refuse_observe(plant, observe)
         parts = [table("", {"format": 1, "name": name, "summary": summary, "dt_s": self._dt_s, "horizon": horizon,
                             "ended": self._formula("ended", ended)})]
         parts += [_state(state) for state in states]
@@ -115,6 +116,7 @@ class Robot:
     def from_file(cls, path: Union[str, os.PathLike[str]], *, plant: Any = None,
                   observe: Union[Callable[[Any], Any], None] = None) -> Robot:
         """The robot of a TOML file (docs/own-robot.md). plant: an environment, where the file has no [plant]."""
+        _refuse_observe(plant, observe)
         robot = cls.__new__(cls)
         robot.text = read_text(path)
         robot._functions = []
@@ -180,6 +182,8 @@ class Robot:
                             "change=, and change=rk4(f, dt_s) where it returns derivatives")
         if model.change is not None and not callable(model.change):
             raise TypeError(f"{name}: change is a {type(model.change).__name__}, must be a function; formulas are rates=")
+        if model.change is not None and model.define:
+            raise _core.InvalidInput(f"{name}: define is for the formulas of rates=, and change= is a function")
         dt_s = getattr(model.change, "dt_s", None)  # of rk4
         if dt_s is not None and dt_s != self._dt_s:
             raise _core.InvalidInput(f"{name}: rk4 was given dt_s = {dt_s}, the robot {self._dt_s}")
@@ -195,6 +199,9 @@ class Robot:
         given: Any = ({key: number(f"measurement_noise of {key}", of) for key, of in noise.items()}
                       if isinstance(noise, Mapping) else number("measurement_noise", noise) or None)
         if plant is None:
+            if given:
+                raise _core.InvalidInput("measurement_noise is of a plant, and plant is None; where a prior plays the robot, "
+                                         "options={\"measurement_noise\": …} of evaluate has it")
             return []
         if isinstance(plant, Model):
             if plant.tune:
@@ -206,6 +213,12 @@ class Robot:
         self.one_at_a_time = is_environment(plant) or is_real(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": given})]
+
+
+def _refuse_observe(plant: Any, observe: Any) -> None:
+    """Refuses what would not be called."""
+    if observe is not None and (plant is None or isinstance(plant, Model)):
+        raise _core.InvalidInput(f"observe goes with an environment, and plant is {'None' if plant is None else 'a Model'}")
 
 
 def _of_whole_steps(keep: Callable[..., Any]) -> Callable[..., Any]:

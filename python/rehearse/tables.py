@@ -156,4 +156,8 @@ def _cells(column: Array, missing: Array, rows: int) -> list[str]:
 
 
 def _texts(column: Any) -> list[str]:
-    return [] if np.ndim(column) not in (1, 2) else ["" if value is None else str(value) for value in column]
+    """[]: it is one thing, such as a text or a number, or it is images."""
+    one = isinstance(column, (str, bytes, Mapping)) or not isinstance(column, Collection)
+    if one or getattr(column, "ndim", 1) not in (1, 2):
+        return []
+    return ["" if value is None else str(value) for value in column]

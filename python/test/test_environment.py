@@ -1,10 +1,13 @@
 """Environments that play a robot, their angles and the end of their episodes; functions of all kinds."""
 
+import functools
+
 import numpy as np
 import pytest
 from robots import QUICK, Environment, cart
 
 import rehearse
+from rehearse import environment
 
 
 def learn(robot, out, **more):
@@ -55,6 +58,39 @@ def test_angles_begin_in_the_turn_of_the_start(tmp_path):
     assert np.abs(run.trajectory(1)["angle"] - np.pi).max() < 0.02
 
 
+def test_angles_of_single_precision_are_counted_on():
+    """The π of single precision is larger than π."""
+
+    class Single:
+        def reset(self, seed=None):
+            return np.array([0.0, np.pi], dtype=np.float32)
+
+        def step(self, action):
+            return np.array([0.0, 0.02 - np.pi], dtype=np.float32)
+
+    states = [rehearse.State("rate"), rehearse.State("angle", angle=True, start=np.pi)]
+    played = environment.Environment(Single(), None, environment.Task(3, states))
+    assert played.reset(1)[1] == np.float32(np.pi) > np.pi
+    np.testing.assert_allclose(played.step(np.zeros(1))[0], [0, np.pi + 0.02], atol=1e-6)
+
+
+def test_a_real_robot_is_made_once_at_a_time_however_it_is_made():
+    class Real(Environment):
+        def end(self):
+            pass
+
+    made = functools.partial(functools.partial(Real, 50), limit=20)
+    assert cart(Real).one_at_a_time and cart(made).one_at_a_time
+    assert not cart(functools.partial(Environment, 50)).one_at_a_time
+
+
+def test_an_environment_that_does_not_fit_is_refused_with_the_robot():
+    two = Environment()
+    two.action_space = type("Space", (), {"shape": (2,), "dtype": np.dtype(float)})()
+    with pytest.raises(rehearse.InvalidInput, match="takes 2 actions .* the robot has 1: force"):
+        cart(two)
+
+
 def test_a_real_robot_can_be_left_alone():
     class Moved(Environment):
         def step(self, action):
@@ -64,20 +100,6 @@ def test_a_real_robot_can_be_left_alone():
     assert rehearse.check(robot, plant=False).steps > 0
     with pytest.raises(TypeError, match="plant = 1, must be True or False"):
         rehearse.check(robot, plant=1)
-
-
-def test_rates_may_write_into_what_they_are_given():
-    def pushed(states, actions, mass):
-        actions *= 1 / mass
-        states[:, 1] = 0
-        return np.column_stack([actions[:, 0], states[:, 0]])
-
-    def gentle(states, actions, mass):
-        return np.column_stack([actions[:, 0] / mass, states[:, 0]])
-
-    x, u = np.array([[0.3, 1.0]]), np.array([[1.0]])
-    assert (rehearse.rk4(pushed, 0.1)(x, u, mass=2.0) == rehearse.rk4(gentle, 0.1)(x, u, mass=2.0)).all()
-    assert (x == [[0.3, 1.0]]).all() and u == 1
 
 
 def test_a_limit_of_five_arguments_may_have_defaults(tmp_path):

@@ -5,6 +5,7 @@ import pytest
 from robots import cart, change
 
 import rehearse
+from rehearse.tables import to_csv
 
 
 def log(seed, steps=60):
@@ -26,6 +27,16 @@ def test_arrays_tell_the_mass(tmp_path):
     assert mass["low"] < 1.6 < mass["high"]
     assert "mass" in str(found)
     assert found.report(tmp_path / "page.html").read_text().startswith("<!")
+
+
+def test_what_is_no_column_of_numbers_is_no_obstacle():
+    rows = log(1)
+    more = {"contacts": [[1]] * 59 + [[1, 2]], "label": "cart", "phase": np.array("x"), "settings": {"a": 1}}
+    lines = to_csv({**rows, **more}).splitlines()
+    assert lines[0] == "time,velocity,position,force,contacts" and lines[-1].endswith(',"[1, 2]"')
+    found, known = (rehearse.identify(cart(plant=None), [each], options={"beyond": "nothing"}).parameters
+                    for each in ({**rows, **more}, rows))
+    np.testing.assert_array_equal(found[["value", "low", "high"]], known[["value", "low", "high"]])
 
 
 def test_parameters_have_a_figure():

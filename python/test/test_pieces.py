@@ -1,5 +1,6 @@
 """The pieces alone, against NumPy."""
 
+import copy
 import pickle
 import subprocess
 import sys
@@ -102,6 +103,16 @@ def test_a_gp_scores_and_is_copied():
     np.testing.assert_array_equal(loaded.predict(X_new, return_std=True), gp.predict(X_new, return_std=True))
     assert loaded.log_evidence == gp.log_evidence
     assert pickle.loads(pickle.dumps(rehearse.GaussianProcess(starts=2))).options == {"starts": 2}
+
+
+def test_a_copy_of_a_gp_has_the_tolerance_of_its_data():
+    X, logs = np.linspace(-2, 2, 200), np.log([1.5, 1, 0.2])
+    gp, exact = (rehearse.GaussianProcess(tolerance=most).condition(X, np.sin(X), logs) for most in (0.1, 0))
+    before = gp.predict(X, return_std=True)
+    assert (exact.predict(X, return_std=True)[1] != before[1]).any(), "the tolerance matters"
+    gp.set_params(tolerance=0)
+    for again in (copy.copy(gp), copy.deepcopy(gp), pickle.loads(pickle.dumps(gp))):
+        np.testing.assert_array_equal(again.predict(X, return_std=True), before)
 
 
 def test_a_gp_has_the_manners_of_scikit_learn():
@@ -212,25 +223,6 @@ def test_map_elites_fill_their_niches():
     x = voronoi.ask()
     voronoi.tell(x[:, 2], x[:, :2])
     assert voronoi.statistics()["coverage"] > 0.5
-
-
-def test_rk4_gives_a_row_the_same_bytes_in_any_array():
-    """NumPy's sine of a strided column depends on its address, so columns must be contiguous."""
-    chain = rehearse.rk4(lambda x, u: np.stack([np.sin(x[:, (i + 1) % 6]) for i in range(6)], axis=1), 0.1)
-    states = np.asfortranarray(np.random.default_rng(1).normal(scale=3, size=(300, 6)))
-    actions = np.zeros((300, 1))
-    whole = chain(states, actions)
-    for first in range(0, 300, 7):
-        for rows in (1, 2, 3, 5, 64):
-            part = chain(np.asfortranarray(states[first:first + rows]), actions[first:first + rows])
-            assert np.array_equal(part, whole[first:first + rows])
-    assert np.array_equal(chain(np.ascontiguousarray(states), actions), whole)
-
-
-def test_runge_and_kutta():
-    swing = rehearse.rk4(lambda x, u, w: np.column_stack([x[:, 1], -w**2 * x[:, 0]]), 0.1, substeps=4)
-    moved = swing(np.array([[1.0, 0.0]]), np.zeros((1, 0)), w=2.0)
-    np.testing.assert_allclose(moved, [[np.cos(0.2) - 1, -2 * np.sin(0.2)]], atol=1e-7)
 
 
 def test_one_input_may_be_numbers_alone():

@@ -58,6 +58,15 @@ def test_what_is_loaded_or_pickled_answers_as_the_original(tmp_path):
     assert len(near) == 1, "one of them hands over to feedback"
 
 
+def test_theta_is_a_copy(tmp_path):
+    own = rehearse.Policy.of(cart(), [0.1, 0.2, 0.3])
+    loaded = rehearse.Policy.load(own.export(tmp_path / "policy.json"))
+    for policy in own, loaded, copy.copy(loaded), pickle.loads(pickle.dumps(own)):
+        theta = policy.theta
+        theta *= 0.5
+        np.testing.assert_array_equal(policy.theta, [0.1, 0.2, 0.3])
+
+
 def test_a_run_may_begin_with_a_policy_that_was_loaded(tmp_path):
     policy = learn(cart(), tmp_path / "before").policy(2)
     loaded = rehearse.Policy.load(policy.export(tmp_path / "policy.json"))

@@ -2,7 +2,6 @@
 
 import pathlib
 import shutil
-import signal
 import subprocess
 import sys
 
@@ -170,87 +169,21 @@ begun.wait(30)
     assert len(rehearse.open_run(tmp_path / "run").trials) < 3
 
 
-def test_check_finds_what_a_learner_would_stumble_over(tmp_path):
-    found = rehearse.check(cart())
-    assert found.complaints == [] and str(found).endswith("all is well")
-    assert found.steps == 45 and list(found.changes) == ["velocity", "position"]
-    (light,) = found.priors
-    assert light.name == "light" and 0 < light.errors["velocity"] < found.changes["velocity"] and light.notes == []
-
-    def following(states, actions, mass, friction):
-        return states + change(states, actions, mass=mass, friction=friction)
-
-    wrong = rehearse.Model(following, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})
-    noted = str(rehearse.check(cart(priors={"light": wrong})))
-    assert "changes of state, not the next one?" in noted and noted.endswith("see what is noted above")
-    idle = rehearse.Model(lambda states, actions, mass: 0.1 * states, parameters={"mass": 1.0}, tune={"mass": (0.2, 5)})
-    (complaint,) = rehearse.check(cart(Environment, priors={"idle": idle})).complaints
-    assert "mass changes no prediction" in complaint
-    with pytest.raises(ZeroDivisionError):
-        rehearse.check(cart(reward=lambda *of: 1 / 0))
-    bodies = [rehearse.Body("cart", ("position", "0"), ("position", "0.1"))]
-    rehearse.check(cart(bodies=bodies), out=tmp_path / "cart.html")
-    assert "cart: an episode of random actions" in (tmp_path / "cart.html").read_text(encoding="utf-8")
-    for page, why in ((tmp_path / "cart.txt", "must end in .html"), (tmp_path / "none" / "cart.html", "none")):
-        with pytest.raises(rehearse.InvalidInput, match=why):
-            rehearse.check(cart(), out=page)
-    with pytest.raises(rehearse.InvalidInput, match="unknown scenario 'pendubott', did you mean 'pendubot'"):
-        rehearse.check("pendubott")
-
-
-class Hot:
-    """A robot whose motor gets hot in its fourth step."""
-
-    def __init__(self):
-        self.calls = []
-
-    def reset(self, *, seed=None, options=None):
-        self.calls.append("reset")
-        return np.array([0.0, 1.0]), {}
-
-    def step(self, action):
-        self.calls.append("step")
-        if self.calls.count("step") == 4:
-            raise OSError("the motor is hot")
-        return np.array([0.0, 1.0]), 0.0, False, False, {}
-
-    def end(self):
-        self.calls.append("end")
-
-
-def test_a_robot_that_fails_is_not_moved_again_by_check():
-    hot = Hot()
-    with pytest.raises(OSError, match="the motor is hot"):
-        rehearse.check(cart(hot))
-    assert hot.calls == ["reset", "step", "step", "step", "step", "end"]
-
-
-class Stopped(Hot):
-    """Ctrl-C comes in its second step."""
-
-    def step(self, action):
-        self.calls.append("step")
-        if self.calls.count("step") == 2:
-            signal.raise_signal(signal.SIGINT)
-        return np.array([0.0, 1.0]), 0.0, False, False, {}
-
-
-def test_ctrl_c_stops_a_robot_that_is_checked():
-    robot = Stopped()
-    with pytest.raises(KeyboardInterrupt):
-        rehearse.check(cart(robot))
-    assert robot.calls == ["reset", "step", "step", "end"]
-
-
-def test_check_counts_episodes_that_end_early():
-    class Ends(Environment):
-        def step(self, action):
-            observation, *rest = super().step(action)
-            return observation, 0.0, self.steps == 2, False, {}
-
-    found = rehearse.check(cart(Ends, limits=[rehearse.Limit("position < 1.5", name="near")]))
-    assert (found.steps, found.episodes, found.ended, found.broke) == (6, 3, 3, {"near": 0})
-    assert str(found).startswith("6 steps under random actions, 3 of 3 episodes ended early")
+def test_an_argument_that_would_not_be_used_is_refused(tmp_path):
+    given, known = dict(parameters={"mass": 1.0, "friction": 0.3}), {"double": "2 * velocity"}
+    file = tmp_path / "cart.toml"
+    file.write_text(FILE.format(horizon=15))
+    for make, message in (
+            (lambda: cart(observe=list), "observe goes with an environment, and plant is a Model"),
+            (lambda: cart(None, observe=list), "observe goes with an environment, and plant is None"),
+            (lambda: rehearse.Robot.from_file(file, observe=list), "observe goes with an environment, and plant is None"),
+            (lambda: cart(None, measurement_noise=0.1), "measurement_noise is of a plant, and plant is None"),
+            (lambda: cart(None, measurement_noise={"position": 0.1}), "measurement_noise is of a plant"),
+            (lambda: cart(rehearse.Model(change, define=known, **given)), "plant: define is for the formulas of rates="),
+            (lambda: cart(priors={"light": rehearse.Model(change, define=known, **given)}), "light: define is for")):
+        with pytest.raises(rehearse.InvalidInput, match=f"^{message}"):
+            make()
+    assert cart(None, measurement_noise=0.0).name == rehearse.Robot.from_file(file, plant=Environment(), observe=list).name
 
 
 def test_parameters_may_have_units():

@@ -195,6 +195,7 @@ def test_an_exception_of_a_function_comes_out_and_the_run_goes_on(tmp_path):
     (lambda x, u: np.zeros(len(x)), "positional arguments"),
     (lambda x, u, n: None, "reward returned None, must be an array of numbers"),
     (lambda x, u, n: n[:, 1] + 1j, "reward returned complex numbers, must be an array of numbers"),
+    (lambda x, u, n: [None, *n[1:, 1]], "reward returned None among its numbers, must be an array of numbers"),
 ])
 def test_wrong_results_say_what_they_must_be(tmp_path, wrong, message):
     with pytest.raises((ValueError, TypeError), match=message):
@@ -392,6 +393,8 @@ def test_a_function_that_cannot_be_called_leaves_no_folder(tmp_path):
     nowhere = rehearse.Model(lambda states, actions: np.full_like(states, np.nan))
     with pytest.raises(rehearse.InvalidInput, match="prior lost changes the start by what is not finite"):
         learn(cart(priors={"lost": nowhere}), tmp_path / "run")
+    with pytest.raises(ZeroDivisionError):
+        learn(cart(rehearse.Model(lambda states, actions: 1 / 0)), tmp_path / "run")
     assert not (tmp_path / "run").exists()
 
 
