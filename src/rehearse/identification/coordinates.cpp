@@ -26,19 +26,20 @@ Matrix slope(const std::function<Matrix(const Vector&)>& of, const Vector& z, co
 Coordinates::Coordinates(const ParameterSpace& space, Vector phi)
     : phi_(std::move(phi)), continuous_(space.of_kind(Parameter::Kind::continuous)) {
   low_.resize(static_cast<Index>(continuous_.size()));
-  width_.resize(low_.size());
+  high_.resize(low_.size());
   for (Index i = 0; i < low_.size(); ++i) {
     const Interval box = space[continuous_[static_cast<std::size_t>(i)]].box;
     low_(i) = box.low;
-    width_(i) = box.high - box.low;
+    high_(i) = box.high;
   }
+  width_ = high_ - low_;
 }
 
 Vector Coordinates::start() const { return ((phi_(continuous_) - low_).array() / width_.array()).max(0).min(1); }
 
 Vector Coordinates::phi(const Vector& z) const {
   Vector phi = phi_;
-  phi(continuous_) = low_ + z.cwiseProduct(width_);
+  phi(continuous_) = (low_ + z.cwiseProduct(width_)).cwiseMin(high_);  // rounding may lead beyond
   return phi;
 }
 

@@ -17,8 +17,8 @@ class Coordinates {
   Coordinates(const ParameterSpace& space, Vector phi);
 
   Index size() const { return low_.size(); }
-  Vector start() const;  // z of φ
-  Vector phi(const Vector& z) const;
+  Vector start() const;                                                 // z of φ
+  Vector phi(const Vector& z) const;                                    // inside the boxes
   const std::vector<Index>& parameters() const { return continuous_; }  // of the space
   const Vector& low() const { return low_; }                            // of the boxes
   const Vector& widths() const { return width_; }
@@ -26,7 +26,7 @@ class Coordinates {
  private:
   Vector phi_;
   std::vector<Index> continuous_;
-  Vector low_, width_;
+  Vector low_, high_, width_;
 };
 
 /// The derivatives with respect to z, one a coordinate, of a matrix that depends on z and is `at` there, by differences

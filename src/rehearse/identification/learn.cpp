@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/actuated_model.hpp"
 #include "rehearse/dynamics/integration.hpp"
@@ -96,9 +94,6 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
     if (!note) note = contradicts_image(*model, residuals, noise_of_changes(*model, residuals));
     if (note) learned.notes.push_back(std::move(*note));
   }
-  for (Index e = 0; e < fit.log_evidences.size(); ++e)
-    if (!std::isfinite(fit.log_evidences(e)))
-      learned.notes.push_back(fmt::format("the kernel of output {} could not be fitted", e));
   return learned;
 }
 

@@ -51,7 +51,8 @@ class NoUsableRow : public InvalidInput {
   using InvalidInput::InvalidInput;
 };
 
-/// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no row; NoUsableRow.
+/// Throws InvalidInput if the kind needs a prior and none is given, the data set has no row, or a kernel cannot be
+/// fitted; NoUsableRow.
 Learned learn(const LearningProblem& problem, const Kind& kind, const WarmStart& start, const Evaluator& evaluator);
 
 }  // namespace rehearse::identification

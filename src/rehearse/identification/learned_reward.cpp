@@ -101,8 +101,6 @@ LearnedReward learn_reward(const Dataset& data, const FeatureMap& features, cons
   LearnedReward learned{.scale = best.targets.scale, .log_evidence = best.log_evidence()};
   if (static_cast<Index>(rows.size()) < data.size())
     learned.notes.push_back(fmt::format("{} rewards are not finite and were left out", data.size() - inputs.size()));
-  if (best.fit.status == gp::Fit::Status::failed)
-    learned.notes.push_back("the kernel of the reward could not be fitted");
   const auto posterior =
       std::make_shared<gp::Posterior>(inputs, best.targets.y, std::vector{best.fit.hyperparameters}, options.tolerance);
   learned.reward = Believed(posterior, features, best.targets, options.caution);

@@ -51,11 +51,12 @@ struct LearnedReward {
   Reward reward;  // the posterior mean (of the logarithm); any thread, no allocation after a thread's first call
   RewardScale scale = RewardScale::linear;  // chosen
   double log_evidence = 0;                  // of the rewards, nats
-  std::vector<std::string> notes;           // numerical failures survived
+  std::vector<std::string> notes;           // on rows that were left out
 };
 
 /// A GP with zero mean from (features of the state reached, action) to the reward of a step, as in the authors' code.
-/// Rows whose reward is not finite are left out. Throws InvalidInput if none is left.
+/// Rows whose reward is not finite are left out. Throws InvalidInput if none is left, or if no kernel can
+/// be fitted.
 LearnedReward learn_reward(const Dataset& data, const FeatureMap& features, const RewardOptions& options);
 
 }  // namespace rehearse::identification

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "rehearse/identification/coordinates.hpp"
+#include "rehearse/identification/last_targets.hpp"
 #include "rehearse/optim/least_squares.hpp"
 #include "rehearse/optim/spread.hpp"
 
@@ -15,16 +16,15 @@ constexpr double kExact = 1e-24;  // mean squared error, as a fraction of the ch
 /// One-step errors as a function of φ; a row that fails has errors as large as the changes' standard deviations.
 class OneStepErrors {
  public:
-  OneStepErrors(const dynamics::Residuals& residuals, const prior::Prior& prior)
-      : residuals_(residuals), prior_(prior) {}
+  OneStepErrors(const dynamics::Residuals& residuals, const prior::Prior& prior) : targets_(residuals, prior) {}
 
-  Matrix at(const Vector& phi) const { return charged(raw(phi)); }
+  Matrix at(const Vector& phi) { return charged(targets_.at(phi)); }
 
   /// Their derivatives (rows × outputs, one below the other): 0 for a row that fails at one end of a difference.
-  Matrix slopes(const Coordinates& coordinates, const Vector& z) const {
-    const Matrix here = raw(coordinates.phi(z)), charged_here = charged(here);
+  Matrix slopes(const Coordinates& coordinates, const Vector& z) {
+    const Matrix here = targets_.at(coordinates.phi(z)), charged_here = charged(here);
     const auto there = [&](const Vector& other) {
-      Matrix errors = raw(coordinates.phi(other));
+      Matrix errors = targets_.at(coordinates.phi(other));
       for (Index i = 0; i < errors.rows(); ++i)
         if (!errors.row(i).allFinite() || !here.row(i).allFinite()) errors.row(i) = charged_here.row(i);
       return errors;
@@ -36,32 +36,25 @@ class OneStepErrors {
   }
 
   /// Minus the mean of a sum of squares over the rows.
-  double score(double squares) const { return -squares / static_cast<double>(residuals_.size()); }
-  double negligible() const {
-    return kExact * static_cast<double>(residuals_.size()) * residuals_.scale().squaredNorm();
-  }
-  Index evaluations() const { return evaluations_; }
+  double score(double squares) const { return -squares / rows(); }
+  double negligible() const { return kExact * rows() * targets_.residuals().scale().squaredNorm(); }
+  Index evaluations() const { return targets_.evaluations(); }
 
  private:
-  Matrix raw(const Vector& phi) const {
-    ++evaluations_;
-    return residuals_.targets(&prior_, phi);
-  }
+  double rows() const { return static_cast<double>(targets_.residuals().size()); }
   Matrix charged(Matrix errors) const {
     for (Index i = 0; i < errors.rows(); ++i)
-      if (!errors.row(i).allFinite()) errors.row(i) = residuals_.scale().transpose();
+      if (!errors.row(i).allFinite()) errors.row(i) = targets_.residuals().scale().transpose();
     return errors;
   }
 
-  const dynamics::Residuals& residuals_;
-  const prior::Prior& prior_;
-  mutable Index evaluations_ = 0;
+  LastTargets targets_;
 };
 
 /// Searches φ for one combination of the discrete parameters, by descents from several starts.
 class Descents {
  public:
-  Descents(const OneStepErrors& errors, Coordinates coordinates, const LeastSquares& options)
+  Descents(OneStepErrors& errors, Coordinates coordinates, const LeastSquares& options)
       : errors_(errors), coordinates_(std::move(coordinates)), options_(options) {
     const Index q = coordinates_.size();
     problem_ = {[this](const Vector& z) -> Vector { return errors_.at(coordinates_.phi(z)).reshaped(); },
@@ -92,7 +85,7 @@ class Descents {
     consider(optim::minimise_squares(problem_, found.x));
   }
 
-  const OneStepErrors& errors_;
+  OneStepErrors& errors_;
   const Coordinates coordinates_;
   const LeastSquares& options_;
   optim::SquaresProblem problem_;
@@ -103,7 +96,7 @@ class Descents {
 
 Identified least_squares(const dynamics::Residuals& residuals, const prior::Prior& prior,
                          const std::optional<Vector>& start, const LeastSquares& options) {
-  const OneStepErrors errors(residuals, prior);
+  OneStepErrors errors(residuals, prior);
   const auto score = [&](const Vector& phi) { return errors.score(errors.at(phi).squaredNorm()); };
   const bool continuous = !prior.space.of_kind(Parameter::Kind::continuous).empty();
   if (options.method == LeastSquares::Method::subplex || !continuous)

@@ -7,6 +7,7 @@
 #include "rehearse/gp/evidence.hpp"
 #include "rehearse/identification/coordinates.hpp"
 #include "rehearse/identification/information.hpp"
+#include "rehearse/identification/last_targets.hpp"
 #include "rehearse/identification/misfit.hpp"
 #include "rehearse/identification/reach.hpp"
 
@@ -17,9 +18,8 @@ constexpr double kTakesPart = 0.05;         // of a unit direction: the least co
 constexpr double kFar = 3.841458820694124;  // of a sum of squares, above its minimum: 95 % of one direction
 
 /// The targets (n × dx) at a φ, of the rows that count.
-Matrix targets_of(const dynamics::Residuals& residuals, const prior::Prior& prior,
-                  const dynamics::Residuals::Rows& rows, const Vector& phi) {
-  Matrix all = residuals.targets(&prior, phi);
+Matrix targets_of(LastTargets& targets, const dynamics::Residuals::Rows& rows, const Vector& phi) {
+  Matrix all = targets.at(phi);
   if (rows.kept.empty()) return all;
   return all(rows.kept, Eigen::all);
 }
@@ -32,11 +32,10 @@ struct Stack {
 };
 
 /// Independent outputs, one below the other. References must outlive it.
-Stack independent(const dynamics::Residuals& residuals, const prior::Prior& prior,
-                  const dynamics::Residuals::Rows& rows, const std::vector<Spread>& spreads,
+Stack independent(LastTargets& targets, const dynamics::Residuals::Rows& rows, const std::vector<Spread>& spreads,
                   const Evaluator& evaluator) {
   const auto of = [](const Matrix& all) -> Vector { return all.reshaped(); };
-  const auto at = [&](const Vector& phi) -> Vector { return targets_of(residuals, prior, rows, phi).reshaped(); };
+  const auto at = [&](const Vector& phi) -> Vector { return targets_of(targets, rows, phi).reshaped(); };
   const auto whiten = [&](const Matrix& columns) {
     const auto outputs = static_cast<Index>(spreads.size()), n = columns.rows() / outputs;
     Matrix white(columns.rows(), columns.cols());
@@ -52,14 +51,9 @@ Stack independent(const dynamics::Residuals& residuals, const prior::Prior& prio
 /// The residuals around a φ, and their derivatives.
 class Around {
  public:
-  Around(const dynamics::Residuals& residuals, const prior::Prior& prior, const Vector& phi,
-         const dynamics::Residuals::Rows& rows, const std::vector<Spread>& spreads)
-      : residuals_(residuals),
-        prior_(prior),
-        phi_(phi),
-        rows_(rows),
-        spreads_(spreads),
-        coordinates_(prior.space, phi) {}
+  Around(LastTargets& targets, const Vector& phi, const dynamics::Residuals::Rows& rows,
+         const std::vector<Spread>& spreads)
+      : targets_(targets), phi_(phi), rows_(rows), spreads_(spreads), coordinates_(targets.prior().space, phi) {}
 
   std::optional<PhiPosterior> posterior(const Stack& stack, const PhiPosteriorOptions& options) const {
     const Vector z = coordinates_.start();
@@ -71,7 +65,7 @@ class Around {
     if (told.factor.size() == 0) return {};
     const Vector way = options.misfit_share * way_to_explain(J, explained(stack), deviations(stack), z);
     const Matrix covariance = covariance_of(told, z) + way * way.transpose();
-    std::optional<PhiPosterior> posterior = posterior_of(covariance, prior_.space, phi_);
+    std::optional<PhiPosterior> posterior = posterior_of(covariance, targets_.prior().space, phi_);
     if (posterior) follow(weak_directions(told), stack, *posterior);
     return posterior;
   }
@@ -80,7 +74,7 @@ class Around {
   Index outputs() const { return rows_.targets.cols(); }
   const Spread& spread(Index e) const { return spreads_[static_cast<std::size_t>(e)]; }
 
-  Matrix targets(const Vector& z) const { return targets_of(residuals_, prior_, rows_, coordinates_.phi(z)); }
+  Matrix targets(const Vector& z) const { return targets_of(targets_, rows_, coordinates_.phi(z)); }
 
   /// Derivatives (n × dx each) as columns.
   static Matrix stacked(const Stack& stack, const std::vector<Matrix>& slopes) {
@@ -119,7 +113,7 @@ class Around {
     for (Index e = 0; e < outputs(); ++e) {
       const double mean_square = rows_.targets.col(e).squaredNorm() / static_cast<double>(all.rows());
       all.col(e).setConstant(
-          std::max(std::sqrt(mean_square), kLeastDeviation * gp::usable_scale(residuals_.scale()(e))));
+          std::max(std::sqrt(mean_square), kLeastDeviation * gp::usable_scale(targets_.residuals().scale()(e))));
     }
     return stack.of(all);
   }
@@ -150,8 +144,7 @@ class Around {
     posterior.unknown_directions = directions.cols();
   }
 
-  const dynamics::Residuals& residuals_;
-  const prior::Prior& prior_;
+  LastTargets& targets_;
   const Vector& phi_;
   const dynamics::Residuals::Rows& rows_;
   const std::vector<Spread>& spreads_;
@@ -203,8 +196,9 @@ std::optional<PhiPosterior> phi_posterior(const FitProblem& problem, const Fit& 
   const dynamics::Residuals::Rows rows = problem.residuals.at(problem.prior, fit.phi);
   if (!rows.inputs) return {};
   const std::vector<Spread> spreads = spreads_of_gps(rows, fit, problem.evaluator);
-  return Around(problem.residuals, *problem.prior, fit.phi, rows, spreads)
-      .posterior(independent(problem.residuals, *problem.prior, rows, spreads, problem.evaluator), options);
+  LastTargets targets(problem.residuals, *problem.prior);
+  return Around(targets, fit.phi, rows, spreads)
+      .posterior(independent(targets, rows, spreads, problem.evaluator), options);
 }
 
 std::optional<PhiPosterior> phi_posterior(const FitProblem& problem, const Fit& fit, const ErrorsInVariables& steps,
@@ -221,7 +215,8 @@ std::optional<PhiPosterior> phi_posterior(const FitProblem& problem, const Fit& 
   const Stack stack{[&](const Matrix& all) { return steps.stacked(all); },
                     [&](const Vector& phi) { return steps.residuals(on_path.targets(problem.prior, phi)); }, whiten};
   const std::vector<Spread> spreads = spreads_of_gps(rows, fit, problem.evaluator);
-  return Around(problem.residuals, *problem.prior, fit.phi, rows, spreads).posterior(stack, options);
+  LastTargets targets(problem.residuals, *problem.prior);
+  return Around(targets, fit.phi, rows, spreads).posterior(stack, options);
 }
 
 std::optional<PhiPosterior> phi_posterior(const dynamics::Residuals& residuals, const prior::Prior& prior,
@@ -234,8 +229,9 @@ std::optional<PhiPosterior> phi_posterior(const dynamics::Residuals& residuals, 
   std::vector<Spread> spreads;
   for (Index e = 0; e < rows.targets.cols(); ++e)
     spreads.push_back(spread_of_white(rows.targets.col(e), residuals.scale()(e), parameters, nearest));
-  return Around(residuals, prior, phi, rows, spreads)
-      .posterior(independent(residuals, prior, rows, spreads, evaluator),
+  LastTargets targets(residuals, prior);
+  return Around(targets, phi, rows, spreads)
+      .posterior(independent(targets, rows, spreads, evaluator),
                  {.misfit_observations = misfit_observations, .misfit_share = 0});
 }
 

@@ -238,6 +238,8 @@ HWY_INLINE void dispatch(Index D, Arguments&&... arguments) {
       return Call<6>::run(arguments...);
     case 7:
       return Call<7>::run(arguments...);
+    case 9:  // the pendubot with joint angles
+      return Call<9>::run(arguments...);
     default:
       return Call<0>::run(arguments...);
   }

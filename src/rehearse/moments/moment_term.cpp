@@ -10,45 +10,28 @@
 #include "rehearse/moments/moment_kernel.hpp"
 
 namespace rehearse::moments {
-namespace {
-
-MomentTerm mean_term(const gp::Posterior& posterior, Index e) {
-  if (posterior.hyperparameters()[static_cast<std::size_t>(e)].has_trend())
-    throw InvalidInput("no moments of a gp with a trend");
-  return {.output = e,
-          .centres = posterior.inputs().values(),
-          .log_lengths = posterior.hyperparameters()[static_cast<std::size_t>(e)].log_lengths,
-          .weights = posterior.weights(e)};
-}
-
-}  // namespace
 
 std::vector<MomentTerm> exact_terms(const gp::Posterior& posterior) {
   std::vector<MomentTerm> terms;
   for (Index e = 0; e < posterior.outputs(); ++e) {
-    MomentTerm term = mean_term(posterior, e);
-    const double signal = posterior.hyperparameters()[static_cast<std::size_t>(e)].signal_variance();
+    const gp::Hyperparameters& kernel = posterior.hyperparameters()[static_cast<std::size_t>(e)];
+    if (kernel.has_trend()) throw InvalidInput("no moments of a gp with a trend");
+    const double signal = kernel.signal_variance();
     const Matrix inverse_factor = posterior.inverse_factor(e);
-    term.variance = signal;
-    term.reduction = signal * (inverse_factor.transpose() * inverse_factor);
-    term.factor = std::sqrt(signal) * inverse_factor;
-    terms.push_back(std::move(term));
+    terms.push_back({.output = e,
+                     .centres = posterior.inputs().values(),
+                     .log_lengths = kernel.log_lengths,
+                     .weights = posterior.weights(e),
+                     .variance = signal,
+                     .reduction = signal * (inverse_factor.transpose() * inverse_factor),
+                     .factor = std::sqrt(signal) * inverse_factor});
   }
   return terms;
 }
 
-std::vector<MomentTerm> mean_terms(const gp::Posterior& posterior, double jitter) {
-  std::vector<MomentTerm> terms;
-  for (Index e = 0; e < posterior.outputs(); ++e) {
-    terms.push_back(mean_term(posterior, e));
-    terms.back().variance = jitter;
-  }
-  return terms;
-}
-
-std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms, double jitter) {
+std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms) {
   for (MomentTerm& term : terms) {
-    term.variance = jitter;
+    term.variance = 0;
     term.reduction.resize(0, 0);
     term.factor.resize(0, 0);
   }

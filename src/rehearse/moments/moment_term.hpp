@@ -26,12 +26,8 @@ struct MomentTerm {
 /// The GPs of a posterior, exactly: n × n numbers an output. The posterior must have been made without tolerance.
 std::vector<MomentTerm> exact_terms(const gp::Posterior& posterior);
 
-/// Only their means, without the uncertainty of the functions: the mean functions of other GPs (Cutler 2015), or
-/// PILCO's policies, which add `jitter` = 1e-6 to the variance of each output.
-std::vector<MomentTerm> mean_terms(const gp::Posterior& posterior, double jitter = 0);
-
-/// The same of GPs that are given as terms, of inducing inputs too.
-std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms, double jitter = 0);
+/// The means of GPs alone, without the uncertainty of the functions: the mean functions of other GPs (Cutler 2015).
+std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms);
 
 /// The means f(x) (n × outputs) at inputs X (n × D); a row depends on that row alone. Any thread.
 Matrix evaluate_means(const std::vector<MomentTerm>& terms, Index outputs, const ConstMatrixView& X);

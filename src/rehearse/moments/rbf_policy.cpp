@@ -14,6 +14,8 @@
 namespace rehearse::moments {
 namespace {
 
+constexpr double kAddedVariance = 1e-6;  // of each action, before the squash (PILCO)
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Vector clamped(const ConstVectorView& log_lengths) {
@@ -32,7 +34,7 @@ Vector solve(const std::vector<double>& tiles, const ConstVectorView& y) {
 
 }  // namespace
 
-RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& theta, double jitter)
+RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& theta)
     : PolicyMoments(options.features.features(), options.bounds),
       centres_(options.centres),
       theta_(theta),
@@ -49,14 +51,14 @@ RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& t
     inverse_lengths_.push_back((-log_lengths).array().exp());
     factors_.emplace_back(at(tiles_size(centres_)));
     gp::scale_inputs(unscaled_.data(), centres_, features(), inverse_lengths_.back().data(), scaled.data());
-    const double jitter_of_ladder =
+    const double jitter =
         gp::factorise({scaled.data(), centres_, features(), options.noise * options.noise}, factors_.back().data());
-    if (std::isnan(jitter_of_ladder)) return;
+    if (std::isnan(jitter)) return;
     terms.push_back({.output = a,
                      .centres = unscaled_ * scale_.asDiagonal(),
                      .log_lengths = log_lengths.array() + scale_.array().log(),
                      .weights = solve(factors_.back(), theta.segment(targets_at(a), centres_)),
-                     .variance = jitter});
+                     .variance = kAddedVariance});
     if (!terms.back().weights.allFinite() || !terms.back().centres.allFinite()) return;
   }
   network_.emplace(std::move(terms), actions(), true);

@@ -13,7 +13,7 @@ namespace rehearse::moments {
 class RbfPolicy final : public PolicyMoments {
  public:
   /// theta: in the order that policy/rbf.hpp says. Throws InvalidInput if it has another size.
-  RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& theta, double jitter = 1e-6);
+  RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& theta);
 
   bool ok() const override { return ok_; }
   PolicyAdjoint zero_adjoints() const override { return {.networks = network_->zero_adjoints()}; }

@@ -72,24 +72,24 @@ HWY_INLINE void solve(const Lanes& L, const Lanes& b, Index n) {
   }
 }
 
-/// The memory of the vectors of a block of rows.
+/// The memory of the vectors of a block of rows: first what all actions share, then each action's network.
 struct Block {
-  Block(const RbfShape& s, double* memory, Index lanes)
+  Block(const RbfShape& s, Index action, double* memory, Index lanes)
       : theta(memory, lanes),
-        points(theta.data + s.parameters() * lanes, lanes),
+        x(theta.data + s.parameters() * lanes, lanes),
+        k(x.data + s.inputs * lanes, lanes),
+        points(memory + (shared_vectors(s) + action * network_vectors(s)) * lanes, lanes),
         L(points.data + (s.centres + 1) * s.inputs * lanes, lanes),
-        k(L.data + row_of(s.centres) * lanes, lanes),
-        w(k.data + s.centres * lanes, lanes),
-        x(w.data + s.centres * lanes, lanes),
-        factors(x.data + s.inputs * lanes, lanes) {}
-  static Index vectors(const RbfShape& s) {
-    return s.parameters() + (s.centres + 3) * s.inputs + row_of(s.centres) + 2 * s.centres;
-  }
+        w(L.data + row_of(s.centres) * lanes, lanes),
+        factors(w.data + s.centres * lanes, lanes) {}
+  static Index shared_vectors(const RbfShape& s) { return s.parameters() + s.inputs + s.centres; }
+  static Index network_vectors(const RbfShape& s) { return (s.centres + 2) * s.inputs + row_of(s.centres) + s.centres; }
+  static Index vectors(const RbfShape& s) { return shared_vectors(s) + s.actions * network_vectors(s); }
 
   Lanes theta;   // parameters
+  Lanes x, k;    // inputs, and their covariances with the centres
   Lanes points;  // centres and, last, the inputs, divided by the length scales
-  Lanes L, k, w;
-  Lanes x;        // inputs
+  Lanes L, w;
   Lanes factors;  // 1/ℓ of each input
 };
 
@@ -134,7 +134,7 @@ HWY_INLINE bool load(const double* from, Index stride, Index columns, Index row,
   return changed;
 }
 
-/// A thread's block, and what it holds.
+/// A thread's block, and whether it holds the networks of its θ.
 struct Memory {
   void reserve(const RbfShape& wanted, Index lanes) {
     const Index needed = Block::vectors(wanted) * lanes;
@@ -143,13 +143,13 @@ struct Memory {
       block = hwy::AllocateAligned<double>(static_cast<std::size_t>(needed)), allocated = needed;
       std::fill_n(block.get(), needed, 0.0);
     }
-    shape = wanted, prepared = -1;
+    shape = wanted, prepared = false;
   }
 
   hwy::AlignedFreeUniquePtr<double[]> block;
   Index allocated = 0;
   RbfShape shape{};
-  Index prepared = -1;  // the action
+  bool prepared = false;
 };
 
 void RbfKernel(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride,
@@ -157,16 +157,20 @@ void RbfKernel(const RbfShape& shape, const double* theta, Index theta_stride, c
   thread_local Memory memory;
   const auto lanes = static_cast<Index>(hn::Lanes(D()));
   memory.reserve(shape, lanes);
-  const Block block(shape, memory.block.get(), lanes);
-  for (Index a = 0; a < shape.actions; ++a)
-    for (Index row = 0; row < rows; row += lanes) {
-      const Index count = rows - row < lanes ? rows - row : lanes;
-      const bool changed = load(theta, theta_stride, shape.parameters(), row, count, block.theta);
-      if (changed || memory.prepared != a) prepare(shape, a, block), memory.prepared = a;
-      load(in, in_stride, shape.inputs, row, count, block.x);
-      block.k.set(0, act(shape, block));
-      for (Index i = 0; i < count; ++i) out[a * out_stride + row + i] = block.k.data[i];
+  const auto block = [&](Index action) { return Block(shape, action, memory.block.get(), lanes); };
+  const Block shared = block(0);
+  for (Index row = 0; row < rows; row += lanes) {
+    const Index count = rows - row < lanes ? rows - row : lanes;
+    if (load(theta, theta_stride, shape.parameters(), row, count, shared.theta)) memory.prepared = false;
+    load(in, in_stride, shape.inputs, row, count, shared.x);
+    for (Index a = 0; a < shape.actions; ++a) {
+      const Block of_action = block(a);
+      if (!memory.prepared) prepare(shape, a, of_action);
+      shared.k.set(0, act(shape, of_action));
+      for (Index i = 0; i < count; ++i) out[a * out_stride + row + i] = shared.k.data[i];
     }
+    memory.prepared = true;
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -66,8 +66,8 @@ class Smoother {
     score_of_own_errors_ = score_of_own_errors(r);
     steps_.subtract_errors(r);
     given_ = steps_.given_others(r, noise_variances());
-    return std::isfinite(estimate_.score) && steps_.states().allFinite() && given_.residuals.allFinite() &&
-           whiten(targets);
+    return std::isfinite(estimate_.score) && std::isfinite(score_of_own_errors_) && steps_.states().allFinite() &&
+           given_.residuals.allFinite() && whiten(targets);
   }
 
   void fit_kernels() {

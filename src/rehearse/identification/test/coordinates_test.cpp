@@ -20,6 +20,15 @@ TEST(Coordinates, AreFractionsOfTheBoxes) {
   EXPECT_EQ(coordinates.low()(0) + coordinates.widths()(0), 5);
 }
 
+// 0.12 + (1.8 − 0.12) is rounded to more than 1.8.
+TEST(Coordinates, EndAtTheBordersOfTheBox) {
+  const ParameterSpace space({Parameter::continuous("m", 0.5, {0.12, 1.8})});
+  const Coordinates coordinates(space, space.values());
+  ASSERT_GT(coordinates.low()(0) + coordinates.widths()(0), 1.8);
+  EXPECT_EQ(coordinates.phi(Vector{{0}})(0), 0.12);
+  EXPECT_EQ(coordinates.phi(Vector{{1}})(0), 1.8);
+}
+
 TEST(PreciseSlopes, AreOfFourthOrderUpToTheBorder) {
   for (const double a : {0.0, 0.3, 1.0}) {
     const Vector z{{a, 0.6}};

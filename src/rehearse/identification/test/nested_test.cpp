@@ -45,5 +45,17 @@ TEST_F(NestedTest, IsNoWorseThanWhereItStarts) {
   EXPECT_LE(again.evaluations, 3);
 }
 
+// 0.12 + (1.8 − 0.12) is rounded to more than 1.8.
+TEST(Nested, StartsAtTheBorderToWhichLeastSquaresLeads) {
+  const Dataset data = swing::data(25, 1, Vector{{3, 0.3}});
+  const dynamics::Residuals residuals(data, swing::features());
+  const prior::Prior prior = swing::prior({Parameter::continuous("length", 0.5, {0.12, 1.8}), swing::friction()});
+  GpMi kind;
+  kind.subplex.max_evaluations = 10;
+  const Fit found = search_nested(kind, {residuals, &prior, Score::product, {}, serial_evaluator()}, {});
+  EXPECT_NEAR(found.phi(0), 1.8, 0.1);
+  EXPECT_LE(found.phi(0), 1.8);
+}
+
 }  // namespace
 }  // namespace rehearse::identification

@@ -129,7 +129,7 @@ TEST(ExpectedReturn, GradientWithFitcAndAPriorMeanAgreesWithDifferences) {
   const auto hyperparameters = fixture::plain_hyperparameters(data);
   auto terms = fitc_terms(data.inputs, data.changes, data.inputs.topRows(20), hyperparameters);
   const gp::Posterior prior(gp::Inputs(data.inputs.bottomRows(15)), 0.1 * data.changes.bottomRows(15), hyperparameters);
-  for (MomentTerm& term : mean_terms(prior)) terms.push_back(std::move(term));
+  for (MomentTerm& term : mean_terms(exact_terms(prior))) terms.push_back(std::move(term));
   Problem cartpole(scenario, 0, 5, std::make_shared<const MomentMatching>(std::move(terms), 4));
   const Vector theta = fixture::random_theta(*cartpole.policy);
   cartpole.expect_gradient(theta, random_directions(theta.size(), 5));

@@ -9,7 +9,6 @@
 
 #include "rehearse/moments/analytic_policy.hpp"
 #include "rehearse/moments/linear_policy.hpp"
-#include "rehearse/moments/rbf_policy.hpp"
 #include "rehearse/moments/test/gaussian_tools.hpp"
 
 namespace rehearse::moments::policies {
@@ -21,14 +20,13 @@ inline const policy::RbfOptions kRbf{.features = kFeatures, .scale = kScale, .ce
 inline const policy::LinearOptions kLinear{
     .features = kFeatures, .scale = kScale, .squash = {kBounds, 1.5, policy::Squash::Shape::sine}};
 
-/// A policy and its moments at a θ, without what PILCO adds to them.
+/// A policy and its moments at a θ.
 struct Case {
   std::shared_ptr<const policy::Policy> policy;
   PolicyMomentsAt at;
 };
 inline void PrintTo(const Case& c, std::ostream* out) { *out << c.policy->name(); }
-inline const Case kRbfCase{policy::make_rbf(kRbf),
-                           [](const ConstVectorView& theta) { return std::make_unique<RbfPolicy>(kRbf, theta, 0); }};
+inline const Case kRbfCase{policy::make_rbf(kRbf), policy_moments(*policy::make_rbf(kRbf))};
 inline const Case kLinearCase{policy::make_linear(kLinear), policy_moments(*policy::make_linear(kLinear))};
 
 inline Vector theta(const Case& c) { return tools::normals(c.policy->parameters(), 1, 1); }

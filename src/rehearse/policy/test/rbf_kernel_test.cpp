@@ -39,5 +39,17 @@ TEST(RbfKernel, AnotherShapeOfAsManyParametersIsNotTakenForTheLast) {
     }
 }
 
+TEST(RbfKernel, ChangedParametersOfAnyActionAreNotTakenForTheLast) {
+  const RbfShape shape{.inputs = 2, .centres = 4, .actions = 3, .noise = 0.1};
+  const Matrix x = normals(1, 2, 2);
+  Matrix theta = normals(1, shape.parameters(), 1), out(1, 3);
+  for (Index changed = 0; changed < shape.parameters(); ++changed) {
+    theta(0, changed) += 0.1;
+    rbf(shape, theta.data(), 1, x.data(), 1, out.data(), 1, 1);
+    for (Index a = 0; a < 3; ++a)
+      EXPECT_NEAR(out(0, a), naive::mean(theta.row(0), x.row(0), shape, a), 1e-10) << changed << " " << a;
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::policy
