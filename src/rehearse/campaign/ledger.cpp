@@ -71,6 +71,8 @@ void OwnLedger::run_started(std::size_t run, Index trials_done) {
 
 void OwnLedger::progress(std::size_t run, Index trial, const Progress& progress) {
   tell([&](CampaignListener& listener) { listener.progress(run, trial, progress); });
+  const std::lock_guard lock(mutex_);
+  if (!written_) write_if_due();
 }
 
 void OwnLedger::trial_done(std::size_t run, RunOutcome so_far) { update(run, std::move(so_far)); }
@@ -84,10 +86,16 @@ void OwnLedger::run_ended(std::size_t run, RunOutcome outcome) {
 void OwnLedger::update(std::size_t run, RunOutcome outcome) {
   const std::lock_guard lock(mutex_);
   campaign_.runs[run] = std::move(outcome);
+  written_ = false;
+  write_if_due();
+}
+
+void OwnLedger::write_if_due() {
   if (options_.share.of > 1 || Clock::now() < next_write_) return;
   const auto begin = Clock::now();
   try {
     folder_.write(campaign_);
+    written_ = true;
   } catch (const std::runtime_error&) {  // a full disk: the last write says so, if it still is
   }
   const auto end = Clock::now();

@@ -45,6 +45,7 @@ class OwnLedger final : public Ledger {
   template <class Tell>
   void tell(Tell tell);
   void update(std::size_t run, RunOutcome outcome);
+  void write_if_due();
 
   const CampaignFolder& folder_;
   Campaign& campaign_;
@@ -52,6 +53,7 @@ class OwnLedger final : public Ledger {
   std::mutex mutex_;
   std::atomic<bool> stopped_ = false;
   std::size_t next_ = 0;
+  bool written_ = true;  // the tables have all that is known
   Clock::time_point next_write_;
 };
 

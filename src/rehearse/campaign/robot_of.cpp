@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/files/regular_file.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::campaign {
@@ -19,7 +19,7 @@ experiment::Catalogue with_robot_of(const experiment::Catalogue& catalogue, std:
   if (!std::filesystem::exists(file))
     throw InvalidInput(fmt::format("{}: line {}: scenario = '{}': there is no file {}", source,
                                    files::line_of(*campaign.get("scenario")), scenario, file.string()));
-  return catalogue.with_robot(files::read_file(file, files::Links::follow), scenario, file.parent_path());
+  return experiment::with_robot_of_file(catalogue, file, scenario);
 }
 
 }  // namespace rehearse::campaign

@@ -24,12 +24,25 @@ std::vector<const RunOutcome*> runs_of(const Campaign& campaign, std::size_t gro
   return runs;
 }
 
-/// Counts the runs for which `solved` holds among those whose trial `trial` is decided.
+/// The runs of a group as they are at a trial. Where runs end when they are solved, one that is under way stands for
+/// later trials with its last so far: without it those that ended early would stand for all.
+struct GroupAt {
+  const std::vector<const RunOutcome*>& runs;
+  Index trial;
+  bool until_solved;
+
+  std::optional<std::size_t> row_of(const RunOutcome& run) const {
+    const bool under_way = run.state == RunState::unfinished && run.done() > 0;
+    return run.row_of(until_solved && under_way ? std::min(trial, run.done()) : trial);
+  }
+};
+
+/// Counts the runs for which `solved` holds among those that count at the trial, or failed before it.
 template <class Solved>
-std::optional<statistics::Rate> success_rate(const std::vector<const RunOutcome*>& runs, Index trial, Solved solved) {
+std::optional<statistics::Rate> success_rate(const GroupAt& at, Solved solved) {
   Index count = 0, of = 0;
-  for (const RunOutcome* run : runs) {
-    if (!run->decided(trial)) continue;
+  for (const RunOutcome* run : at.runs) {
+    if (!at.row_of(*run) && run->state != RunState::failed) continue;
     if (std::any_of(run->solved.begin(), run->solved.end(), [](const auto& s) { return !s; })) return std::nullopt;
     ++of;
     count += solved(*run);
@@ -37,17 +50,18 @@ std::optional<statistics::Rate> success_rate(const std::vector<const RunOutcome*
   return statistics::rate(count, of);
 }
 
-TrialStatistics statistics_of(const std::vector<const RunOutcome*>& runs, Index trial) {
+TrialStatistics statistics_of(const GroupAt& at) {
+  const Index trial = at.trial;
   std::vector<double> interaction, returns, best;
-  for (const RunOutcome* run : runs) {
-    const auto row = run->row_of(trial);
+  for (const RunOutcome* run : at.runs) {
+    const auto row = at.row_of(*run);
     if (!row) continue;
-    interaction.push_back(run->interaction_s[*row]);
+    if (trial <= run->done()) interaction.push_back(run->interaction_s[*row]);
     returns.push_back(run->returns[*row]);
     best.push_back(run->best_return(trial));
   }
   const auto now = [&](const RunOutcome& run) {
-    const auto row = run.row_of(trial);
+    const auto row = at.row_of(run);
     return row && run.solved[*row].value_or(false);
   };
   const auto until_now = [&](const RunOutcome& run) { return run.first_success(trial).has_value(); };
@@ -56,8 +70,8 @@ TrialStatistics statistics_of(const std::vector<const RunOutcome*>& runs, Index 
           .interaction_s = statistics::median(interaction),
           .total_reward = statistics::five_numbers(returns),
           .best_return = statistics::five_numbers(best),
-          .solved = success_rate(runs, trial, now),
-          .solved_by = success_rate(runs, trial, until_now)};
+          .solved = success_rate(at, now),
+          .solved_by = success_rate(at, until_now)};
 }
 
 /// JSON has no infinity and no NaN.
@@ -202,7 +216,8 @@ std::vector<TrialStatistics> trial_statistics(const Campaign& campaign, std::siz
   for (const RunOutcome* run : runs)
     trials = std::max(trials, run->state == RunState::done ? campaign.plan.trials : run->done());
   std::vector<TrialStatistics> all;
-  for (Index trial = 1; trial <= trials; ++trial) all.push_back(statistics_of(runs, trial));
+  for (Index trial = 1; trial <= trials; ++trial)
+    all.push_back(statistics_of({runs, trial, campaign.plan.until_solved}));
   return all;
 }
 

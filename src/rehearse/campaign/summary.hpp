@@ -13,10 +13,10 @@ namespace rehearse::campaign {
 /// Statistics of one trial, over the runs of a group.
 struct TrialStatistics {
   Index trial = 0;
-  Index runs = 0;            // that have this trial
-  double interaction_s = 0;  // median
+  Index runs = 0;            // that count at this trial
+  double interaction_s = 0;  // median of the runs that did this trial; NaN if none did
   statistics::FiveNumbers total_reward, best_return;
-  // In this trial; in this or one before; of the runs that have the trial, and those that failed before it, which count
+  // In this trial; in this or one before; of the runs that count, and those that failed before it, which count
   // as not solved. Empty: the scenario cannot say.
   std::optional<statistics::Rate> solved, solved_by;
 };

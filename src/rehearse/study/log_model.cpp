@@ -85,10 +85,6 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
   const Vector none = Vector::Zero(log.states.cols());
   const Index first = steps_of(options.zero_s, task);
   if (states_named(options.zeros, task).empty()) return {log, none, none, 0};
-  if (first >= log.steps())
-    throw InvalidInput(fmt::format(
-        "zero_s = {}, must be less than the {} s of each log that is held out or left out, or half of a single one",
-        options.zero_s, static_cast<double>(log.steps()) * task.dt_s));
   prior::Prior learned = prior;
   learned.space = prior.space.fixed_at(*model.learned.state.phi);
   const Zeros zeros = find_zeros({log.part(0, first)}, zero_problem(learned, task, options), evaluator);
@@ -103,6 +99,11 @@ bool moves(const LogModel& model) {
   const Vector least =
       statistics::root_mean_squares(model.data.changes).cwiseMax(kRounding * statistics::root_mean_squares(states));
   return (least.array() < spread.array()).any();
+}
+
+std::vector<Interval> intervals_of(const LogModel& model) {
+  const auto& posterior = model.learned.posterior;
+  return posterior && moves(model) ? posterior->intervals() : std::vector<Interval>{};
 }
 
 }  // namespace rehearse::study

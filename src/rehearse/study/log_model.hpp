@@ -50,4 +50,7 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
 /// measurement change by √2 times their spread, and parameters fitted to them are meaningless (von Neumann 1941).
 bool moves(const LogModel& model);
 
+/// 95 % intervals of the continuous parameters; none if they are unknown, or if nothing moves: they would be of noise.
+std::vector<Interval> intervals_of(const LogModel& model);
+
 }  // namespace rehearse::study

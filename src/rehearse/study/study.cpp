@@ -36,6 +36,7 @@ class Student {
   Study run() {
     logs_ = problem_.logs.size() == 1 ? halves(problem_.logs.front()) : problem_.logs;
     require_long_logs();
+    require_time_for_zeros();
     leave_out();
     const Matrix ones = Matrix::Ones(std::ssize(plan_.horizons), problem_.task.state_size());
     const Matrix unknown = accuracy(study_.left_out_logs.model, ones).rms;
@@ -84,6 +85,21 @@ class Student {
                         "(fit_horizon_s)",
                         log.name, log.episode.steps(), least));
     if (logs_.size() - lines.size() < 2 && !lines.empty()) throw InvalidInput(lines);
+  }
+
+  /// Logs that are left out or held out have their zeros estimated from their first seconds, and are forecast from then
+  /// on.
+  void require_time_for_zeros() const {
+    if (states_named(options_.zeros, problem_.task).empty()) return;
+    std::vector<std::string> lines;
+    const auto check = [&](const Log& log) {
+      if (steps_of(options_.zero_s, problem_.task) >= log.episode.steps())
+        lines.push_back(fmt::format("{}: zero_s = {}, must be less than its {:.4g} s", log.name, options_.zero_s,
+                                    seconds(log.episode.steps(), problem_.task.dt_s)));
+    };
+    std::for_each_n(logs_.begin(), std::min(logs_.size(), kMostLeftOut), check);
+    std::ranges::for_each(problem_.held_out, check);
+    if (!lines.empty()) throw InvalidInput(lines);
   }
 
   /// Logs forecast by models that did not learn from them.

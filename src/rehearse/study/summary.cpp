@@ -13,16 +13,18 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
+bool has_gps(const Study& study) { return study.gps_worsen || study.beyond != Beyond::nothing; }
+
 Section logs(const Study& study, const Problem& problem) {
   Lines lines;
   const double all_s = static_cast<double>(study.model.all_rows) * problem.task.dt_s;
   lines.push_back(fmt::format("{} log{}, {:.4g} s in {} control steps of {} s", problem.logs.size(),
                               problem.logs.size() == 1 ? "" : "s", all_s, study.model.all_rows, problem.task.dt_s));
-  if (study.model.data.size() < study.model.all_rows)
-    lines.push_back(
-        fmt::format("GPs and parameters learn from {} steps in stretches of a second at most, evenly spread; {} are "
-                    "left out (--set rows=N)",
-                    study.model.data.size(), study.model.all_rows - study.model.data.size()));
+  if (has_gps(study) && study.model.data.size() < study.model.all_rows)
+    lines.push_back(fmt::format(
+        "{} learn from {} steps in stretches of a second at most, evenly spread; {} are left out (--set rows=N)",
+        study.beyond == Beyond::gp_mi ? "GPs and parameters" : "GPs", study.model.data.size(),
+        study.model.all_rows - study.model.data.size()));
   for (std::size_t i = 0; i < problem.logs.size(); ++i)
     for (std::size_t s = 0; s < problem.task.states.size(); ++s) {
       const double offset = study.model.zeros.offsets(static_cast<Index>(i), static_cast<Index>(s));
@@ -37,10 +39,9 @@ Section logs(const Study& study, const Problem& problem) {
 }
 
 std::string interval_of(const LogModel& model, std::size_t continuous) {
-  if (!moves(model)) return "nothing moves";
-  if (!model.learned.posterior) return "unknown";
-  const Interval interval = model.learned.posterior->intervals()[continuous];
-  return fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
+  const std::vector<Interval> intervals = intervals_of(model);
+  if (intervals.empty()) return moves(model) ? "unknown" : "nothing moves";
+  return fmt::format("{:.4g} to {:.4g}", intervals[continuous].low, intervals[continuous].high);
 }
 
 /// Parameters that are not at a bound, where they would predict best: because errors are large, and tell
@@ -60,9 +61,9 @@ Lines ends(const Zeros& zeros, const ParameterSpace& space) {
 bool agree(const std::vector<LogModel>& models, std::size_t continuous) {
   double low = -INFINITY, high = INFINITY;
   for (const LogModel& model : models) {
-    if (!model.learned.posterior || !moves(model)) continue;
-    const Interval interval = model.learned.posterior->intervals()[continuous];
-    low = std::max(low, interval.low), high = std::min(high, interval.high);
+    const std::vector<Interval> intervals = intervals_of(model);
+    if (intervals.empty()) continue;
+    low = std::max(low, intervals[continuous].low), high = std::min(high, intervals[continuous].high);
   }
   return low <= high;
 }
@@ -101,17 +102,16 @@ Section parameters(const Study& study, const Problem& problem) {
 Section steps(const Study& study, const Problem& problem) {
   const Vector& noise = study.model.learned.model->measurement_std();
   const StepErrors& of = study.steps;
-  const bool has_gps = study.gps_worsen || study.beyond != Beyond::nothing;
   Section section{
       .title = "What a control step changes, and what is left of it unexplained (rms)", .table = {}, .notes = {}};
   section.table.push_back({"state", "change", "prior as given", "with its parameters learned"});
-  if (has_gps) section.table.front().emplace_back("with the GPs");
+  if (has_gps(study)) section.table.front().emplace_back("with the GPs");
   if (noise.size() > 0) section.table.front().emplace_back("errors of measurements");
   for (std::size_t i = 0; i < problem.task.states.size(); ++i) {
     const auto s = static_cast<Index>(i);
     Lines row = {with_unit(problem.task.states[i].name, problem.task.states[i].unit)};
     std::vector<double> numbers = {of.change(s), of.prior_as_given(s), of.prior(s)};
-    if (has_gps) numbers.push_back(of.model(s));
+    if (has_gps(study)) numbers.push_back(of.model(s));
     if (s < noise.size()) numbers.push_back(noise(s));
     for (const double number : numbers) row.push_back(fmt::format("{:.3g}", number));
     section.table.push_back(row);

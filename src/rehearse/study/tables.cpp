@@ -17,12 +17,10 @@ using files::Csv;
 /// Value and interval of a parameter of a model.
 void add_parameter(Row& row, const LogModel& model, Index parameter, Index continuous) {
   row.push_back(Csv::cell(double{(*model.learned.state.phi)(parameter)}));
-  const auto& posterior = model.learned.posterior;
-  const auto interval = posterior && continuous >= 0
-                            ? std::optional(posterior->intervals()[static_cast<std::size_t>(continuous)])
-                            : std::nullopt;
-  row.push_back(interval ? Csv::cell(interval->low) : "");
-  row.push_back(interval ? Csv::cell(interval->high) : "");
+  const std::vector<Interval> intervals = intervals_of(model);
+  const bool known = continuous >= 0 && !intervals.empty();
+  row.push_back(known ? Csv::cell(intervals[static_cast<std::size_t>(continuous)].low) : "");
+  row.push_back(known ? Csv::cell(intervals[static_cast<std::size_t>(continuous)].high) : "");
 }
 
 std::string parameters_csv(const Study& study, const Problem& problem) {

@@ -162,7 +162,9 @@ Campaign run_cart(const fs::path& folder, const std::string& robot, const std::s
     std::string name() const override { return "cart"; }
   };
   experiment::Catalogue catalogue = experiment::fake::catalogue();
-  catalogue.read_robot = [](std::string_view, const std::string&, const auto&) { return std::make_unique<Cart>(); };
+  catalogue.read_robot = [](std::string_view, const std::string&, const auto&) {
+    return [] { return std::make_unique<Cart>(); };
+  };
   return run_campaign(catalogue.with_robot(robot, "cart.toml", ""),
                       "format = 1\nscenario = \"cart\"\nlearners = [\"echo\"]\ntrials = 1\nseeds = \"" + seeds + "\"\n",
                       "c.toml", folder, {.threads = 1});

@@ -1,5 +1,8 @@
 #include "rehearse/campaign/ledger.hpp"
 
+#include <chrono>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include "counting_listener.hpp"
@@ -23,6 +26,23 @@ TEST(Ledger, GivesEachUnfinishedRunOnceInTheOrderOfThePlan) {
   EXPECT_EQ(ledger.next(), 3u);
   ledger.stop();
   EXPECT_EQ(ledger.next(), std::nullopt);
+}
+
+TEST(Ledger, TablesGetWhatCameTooSoonAfterTheLastWrite) {
+  const fs::path folder = experiment::fake::test_folder() / "campaign";
+  Campaign campaign = run(folder);
+  const CampaignOptions options{.threads = 1};
+  const CampaignFolder joined = CampaignFolder::join(folder, kGrid);
+  OwnLedger ledger(joined, campaign, options);
+  RunOutcome under_way = campaign.runs[0];
+  under_way.state = RunState::unfinished;
+  ledger.trial_done(0, under_way);
+  ledger.trial_done(1, under_way);
+  ledger.progress(1, 1, {});
+  EXPECT_EQ(summary_of(folder)["counts"]["unfinished"], 1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1050));  // it writes once a second
+  ledger.progress(1, 1, {});
+  EXPECT_EQ(summary_of(folder)["counts"]["unfinished"], 2);
 }
 
 TEST(Ledger, AFailureIsRecordedAndDoesNotStopTheOthers) {

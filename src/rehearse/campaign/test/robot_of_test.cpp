@@ -27,9 +27,9 @@ experiment::Catalogue reading_catalogue() {
     std::unique_ptr<scenario::ScenarioBuilder> line_;
     std::string name_;
   };
-  const auto line = catalogue.scenarios.front();
+  const scenario::MakeBuilder line = catalogue.scenarios.front().make;
   catalogue.read_robot = [line](std::string_view text, const std::string&, const auto&) {
-    return std::make_unique<Named>(line(), std::string(text));
+    return [line, name = std::string(text)] { return std::make_unique<Named>(line(), name); };
   };
   return catalogue;
 }

@@ -1,8 +1,11 @@
 #include "rehearse/campaign/summary.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "line_campaign.hpp"
+#include "rehearse/campaign/planner.hpp"
 #include "rehearse/statistics/table.hpp"
 
 namespace rehearse::campaign {
@@ -70,6 +73,35 @@ TEST(Summary, FailedRunsCountAsNotSolvedAndKeepTheirRows) {
   const std::vector<TrialStatistics> trials = trial_statistics(campaign, 1);
   ASSERT_FALSE(trials.empty());
   EXPECT_EQ(trials.back().solved_by->of, 2);
+}
+
+/// A group of three runs: solved at trial 1, solved at trial 2, and under way after one trial.
+Campaign two_solved_and_one_under_way(bool until_solved) {
+  const std::string text = kThreeLearners + "priors = [\"near\"]\nseeds = \"1-3\"\ntrials = 4\nuntil_solved = " +
+                           (until_solved ? "true\n" : "false\n");
+  Campaign campaign{.plan = plan_campaign(experiment::fake::catalogue(), text, "c.toml")};
+  campaign.runs.resize(campaign.plan.runs.size());
+  campaign.runs[0] = {.state = RunState::done, .interaction_s = {1}, .returns = {20}, .solved = {true}};
+  campaign.runs[1] = {.state = RunState::done, .interaction_s = {1, 2}, .returns = {4, 21}, .solved = {false, true}};
+  campaign.runs[2] = {.interaction_s = {1}, .returns = {3}, .solved = {false}};
+  return campaign;
+}
+
+TEST(Summary, RunsUnderWayCountWhereOthersEndEarly) {
+  const std::vector<TrialStatistics> trials = trial_statistics(two_solved_and_one_under_way(true), 0);
+  ASSERT_EQ(trials.size(), 4u);
+  EXPECT_EQ(trials[3].runs, 3);
+  EXPECT_EQ(trials[3].solved_by->count, 2);
+  EXPECT_EQ(trials[3].solved_by->of, 3);
+  EXPECT_EQ(trials[3].best_return.min, 3);
+  EXPECT_EQ(trial_statistics(two_solved_and_one_under_way(false), 0)[3].runs, 2);
+}
+
+TEST(Summary, TimesAreOfTheRunsThatDidTheTrial) {
+  const std::vector<TrialStatistics> trials = trial_statistics(two_solved_and_one_under_way(true), 0);
+  EXPECT_EQ(trials[0].interaction_s, 1);
+  EXPECT_EQ(trials[1].interaction_s, 2);
+  EXPECT_TRUE(std::isnan(trials[2].interaction_s));
 }
 
 }  // namespace
