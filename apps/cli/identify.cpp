@@ -30,15 +30,20 @@ std::string already_there(const std::string& path) {
   return fmt::format("{} exists already; --out DIR names another folder", path);
 }
 
+/// The folder is made and removed again. It is made for good when the study is done: a kill before that leaves nothing.
 void check_out(const std::optional<std::string>& out, Violations& violations) {
   if (!out) return;
   std::error_code ignored;
-  violations.require(!out->empty(), "--out names no folder");
-  violations.require(!fs::exists(*out, ignored), already_there(*out));
+  if (out->empty())
+    violations.add("--out names no folder");
+  else if (fs::exists(*out, ignored))
+    violations.add(already_there(*out));
+  else
+    violations.attempt([&] { const files::NewFolder can_be_made(*out); });
 }
 
-void write(files::NewFolder& folder, const std::string& out, const study::Study& study, const study::Problem& problem,
-           const std::string& robot) {
+void write(const std::string& out, const study::Study& study, const study::Problem& problem, const std::string& robot) {
+  files::NewFolder folder(out);
   const char* const page = "identify.html";
   for (const auto& [name, text] : study::csv_files(study, problem)) files::write_file(folder.hidden() / name, text);
   files::write_file(folder.hidden() / page, study::page(study, problem, robot));
@@ -50,11 +55,13 @@ void write(files::NewFolder& folder, const std::string& out, const study::Study&
 
 int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arguments) {
   Violations violations;
-  const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
   const Index threads = threads_of(arguments.threads, violations);
   check_out(arguments.out, violations);
-  const experiment::StudySetup setup = experiment::set_up_study(
-      catalogue, {arguments.robot, arguments.prior, settings_of(arguments.set, violations)}, violations);
+  const auto settings = settings_of(arguments.set, violations);
+  experiment::Catalogue catalogue;
+  if (!violations.attempt([&] { catalogue = with_robot(built_in, arguments.robot); })) violations.throw_if_any();
+  const experiment::StudySetup setup =
+      experiment::set_up_study(catalogue, {arguments.robot, arguments.prior, settings}, violations);
   experiment::ReadLogs read = experiment::read_logs(arguments.logs, arguments.held_out, setup, violations);
   const auto said = [](std::vector<experiment::ReadLog>& all) {
     std::vector<study::Log> logs;
@@ -66,8 +73,6 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
   };
   const std::vector<study::Log> logs = said(read.logs), held_out = said(read.held_out);
   violations.throw_if_any();
-  std::optional<files::NewFolder> out;
-  if (arguments.out) out.emplace(*arguments.out);
   const study::Problem problem = setup.problem(logs, held_out);
   StatusLine line;
   const auto evaluator =
@@ -82,7 +87,7 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
       put("\n{}\n", section.title);
       for (const std::string& text : study::lines_of(section)) put("  {}\n", text);
     }
-    if (out) write(*out, *arguments.out, study, problem, setup.scenario.name);
+    if (arguments.out) write(*arguments.out, study, problem, setup.scenario.name);
     return kSuccess;
   } catch (const Interrupted&) {
     line.clear();

@@ -38,6 +38,9 @@ refused "must have at most 100" my_robot.toml "$(log 1)" --set read.max_bytes=10
 refused "particles = 0" my_robot.toml "$(log 1)" --set particles=0 --threads 0 --prior nope
 grep -q "unknown prior 'nope'" output && grep -q -- "--threads = 0" output || fail "not all at once: $(cat output)"
 
+refused "cannot read nope.toml" nope.toml "$(log 1)" --threads 0 --set rows
+grep -q -- "--threads = 0" output && grep -q -- "--set rows: must be" output || fail "not all at once: $(cat output)"
+
 # Logs of one name are told apart by their paths.
 mkdir d1 d2 && cp "$(log 1)" d1/log.csv && cp "$(log 2)" d2/log.csv
 "$program" identify my_robot.toml d1/log.csv d2/log.csv "${few[@]}" --out twins >output 2>&1 || fail "twins: $(cat output)"
@@ -47,6 +50,10 @@ touch file && "$program" identify my_robot.toml "$(log 1)" --out file/never >out
 [ $? = 2 ] && grep -q "cannot create file/never" output && ! grep -q "Parameters" output || fail "not known before: $(cat output)"
 refused "\`list\` of identify or the robot names all" my_robot.toml "$(log 1)" --set zzzzz=1
 [ -z "$(find . -maxdepth 1 -name '.*.[0-9]*')" ] || fail "it leaves $(find . -maxdepth 1 -name '.*.[0-9]*')"
+timeout -s KILL 0.7 "$program" identify my_robot.toml "$(log 1)" "$(log 2)" --set particles=10000 --set every_s=0.05 --threads 1 \
+  --out killed >output 2>&1
+[ $? = 137 ] || fail "it was not killed: $(cat output)"
+[ -z "$(find . -maxdepth 1 -name '*killed*')" ] || fail "a kill leaves $(find . -maxdepth 1 -name '*killed*')"
 mkdir never && "$program" identify my_robot.toml "$(log 1)" --out never >output 2>&1
 [ $? = 2 ] && grep -q "never exists already" output || fail "an existing folder: $(cat output)"
 finish

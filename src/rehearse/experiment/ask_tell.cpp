@@ -42,6 +42,12 @@ class Reopened {
   const RunFolder& folder() const { return folder_; }
   OpenRun& run() { return run_; }
 
+  /// The policy's files go first: wherever this ends, none is there whose trial is not asked for.
+  void drop_asked() {
+    folder_.remove_next();
+    run_.change_asked({});  // the next `ask` makes it again, if no logs come
+  }
+
   /// A run that has more trials than it was to have ends with the last of them.
   void extend_to_done() {
     const Spec& spec = folder_.spec();
@@ -64,7 +70,8 @@ struct KnownAs {
   bool known() const { return trial > 0 || log > 0; }
 };
 
-/// By the bytes, or by the numbers: other ends of lines, or the copy in the run's folder, make no other episode.
+/// By the bytes, or, once it was read, by the numbers: other ends of lines, or the copy in the run's folder, make no
+/// other episode.
 KnownAs known_as(const History& history, const ToldFile& file, const Task& task) {
   const auto place = [](const auto& all, const auto& is) -> Index {
     const auto found = std::ranges::find_if(all, is);
@@ -73,9 +80,8 @@ KnownAs known_as(const History& history, const ToldFile& file, const Task& task)
   const auto same_bytes = [&](const auto& one) { return one.file_checksum == file.checksum; };
   const KnownAs by_bytes{place(history.trials, same_bytes), place(history.logs, same_bytes)};
   if (by_bytes.known()) return by_bytes;
-  const auto recording = readable(file, task);
-  if (!recording) return {};
-  const Episode& read = recording->episode;
+  if (!file.whole) return {};
+  const Episode& read = file.whole->episode;
   return {place(history.episodes, [&](const Episode& kept) { return repeats(read, kept, task.horizon); }),
           place(history.logs, [&](const Log& log) { return repeats(read, log.episode, read.steps()); })};
 }
@@ -83,8 +89,7 @@ KnownAs known_as(const History& history, const ToldFile& file, const Task& task)
 /// True if the file follows the policy that was asked for. follows: as exactly as this says.
 bool is_of_policy_asked_for(const ToldFile& file, const scenario::Scenario& scenario, const History& history,
                             decltype(follows_policy) follows) {
-  const auto read = history.asked ? readable(file, scenario.task) : std::nullopt;
-  return read && follows(*read, scenario, *history.asked);
+  return history.asked && file.whole && follows(*file.whole, scenario, *history.asked);
 }
 
 /// True if files are logs of other controllers: several are it also where the first trial was asked for already.
@@ -119,12 +124,11 @@ void check(const History& history, const std::vector<ToldFile>& files, const Tel
 
 /// Throws InvalidInput where a file that is known as a trial goes on after the trial was stopped.
 void refuse_what_goes_on(const TrialRecord& trial, const Episode& kept, const ToldFile& file, const Task& task) {
-  const auto read = readable(file, task);
-  if (!read || !goes_on_after(read->episode, kept, task)) return;
+  if (!file.whole || !goes_on_after(file.whole->episode, kept, task)) return;
   throw InvalidInput(fmt::format(
       "{} has {} steps, of which {} were told as trial {}, stopped there; to tell the whole instead, take that "
       "back: `tell --undo` (in Python `take_back()`)",
-      file.path.string(), read->episode.steps(), kept.steps(), trial.trial));
+      file.path.string(), file.whole->episode.steps(), kept.steps(), trial.trial));
 }
 
 TellResult already_told(const Resolved& resolved, const History& history, const std::vector<ToldFile>& files) {
@@ -138,21 +142,32 @@ TellResult already_told(const Resolved& resolved, const History& history, const 
   return told;
 }
 
+/// Makes the run what it was before logs, unless they are in it on the disk. kept: `keep_tell` came to its end.
+void bring_back(const Reopened& reopened, const History& before, bool kept) {
+  const RunFolder& folder = reopened.folder();
+  if (folder.load().logs.size() != before.logs.size()) return;
+  if (kept) forget_tell(folder);
+  if (!before.asked) return;
+  folder.write_checkpoint(before);
+  update_next_files(folder, reopened.resolved(), before);
+}
+
 /// Logs take the place of a policy that was asked for without them.
 TellResult tell_logs(Reopened& reopened, const std::vector<ToldFile>& files) {
   const Resolved& resolved = reopened.resolved();
   std::vector<Log> logs = logs_of(files, resolved.scenario.task);
-  const std::optional<TrialRecord> asked = reopened.run().history().asked;
-  if (asked) reopened.run().change_asked({});  // the next `ask` makes it again, if this comes no further
-  keep_tell(reopened.folder(), files);
+  const History before = reopened.run().history();
+  bool kept = false;
   try {
+    if (before.asked) reopened.drop_asked();
+    keep_tell(reopened.folder(), files);
+    kept = true;
     reopened.go_on(false, [&](OpenRun& run) { run.add_logs(logs); });
-  } catch (const InvalidInput&) {
-    if (asked) reopened.run().change_asked(asked);
-    forget_tell(reopened.folder());
+  } catch (...) {
+    bring_back(reopened, before, kept);
     throw;
   }
-  return {.resolved = resolved, .trial = {}, .logs = std::move(logs), .dropped = asked.has_value()};
+  return {.resolved = resolved, .trial = {}, .logs = std::move(logs), .dropped = before.asked.has_value()};
 }
 
 TellResult tell_trial(Reopened& reopened, const std::vector<ToldFile>& files, const std::optional<Stop>& stopped) {
@@ -182,15 +197,18 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
   const Resolved& resolved = reopened.resolved();
   const History& history = reopened.run().history();
   Violations violations;
-  const std::vector<ToldFile> files = read_told_files(request.files, violations);
+  std::vector<ToldFile> files = read_told_files(request.files, violations);
   violations.throw_if_any();
   std::vector<ToldFile> news;
-  for (const ToldFile& file : files) {
+  for (ToldFile& file : files) {
+    // Bytes that are known say enough, unless a policy was asked for, which may have done the same again.
+    if (history.asked || !known_as(history, file, resolved.scenario.task).known())
+      file.whole = readable(file, resolved.scenario.task);
     const KnownAs as = known_as(history, file, resolved.scenario.task);
     // A robot without noise may do exactly the same again.
     if (!as.known() ||
         (!are_logs(history, request) && is_of_policy_asked_for(file, resolved.scenario, history, follows_policy))) {
-      news.push_back(file);
+      news.push_back(std::move(file));
     } else if (as.trial > 0) {
       const auto known = static_cast<std::size_t>(as.trial) - 1;
       refuse_what_goes_on(history.trials[known], history.episodes[known], file, resolved.scenario.task);

@@ -41,7 +41,8 @@ struct TellResult {
 
 /// Exactly once: files that were told before, or have the same numbers, change nothing, unless the policy that was
 /// asked for says just what they have (a simulator may repeat itself exactly). Throws InvalidInput, with nothing
-/// changed, where a file is not what is to come, else RunFailed and Interrupted, which leave the episode told.
+/// changed, where a file is not what is to come, else RunFailed and Interrupted, after which the files are told, or
+/// nothing is changed.
 TellResult tell_run(const Catalogue& catalogue, const std::filesystem::path& path, const TellRequest& request,
                     const RunOptions& options);
 

@@ -87,6 +87,14 @@ double part_of_range(double deviation, const ActionVariable& action) {
   return deviation / (action.bounds.high - action.bounds.low);
 }
 
+/// The largest deviation, as a part of its action's range.
+double largest_part(const Vector& deviations, const Task& task) {
+  double most = 0;
+  for (Index i = 0; i < deviations.size(); ++i)
+    most = std::max(most, part_of_range(deviations(i), task.actions[static_cast<std::size_t>(i)]));
+  return most;
+}
+
 /// The cause that explains the actions best; empty: none that is tried does.
 std::string cause_of(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& asked,
                      const std::vector<TrialRecord>& earlier) {
@@ -140,11 +148,7 @@ Vector deviations(const ReadEpisode& read, const scenario::Scenario& scenario, c
 
 double largest_deviation(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial) {
   if (read.episode.steps() == 0) return std::numeric_limits<double>::infinity();
-  const Vector all = deviations(read, scenario, trial);
-  double most = 0;
-  for (Index i = 0; i < all.size(); ++i)
-    most = std::max(most, part_of_range(all(i), scenario.task.actions[static_cast<std::size_t>(i)]));
-  return most;
+  return largest_part(deviations(read, scenario, trial), scenario.task);
 }
 
 bool has_actions_of(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial) {
@@ -153,8 +157,8 @@ bool has_actions_of(const ReadEpisode& read, const scenario::Scenario& scenario,
 
 std::vector<std::string> sentences_on_policy(const ReadEpisode& read, const scenario::Scenario& scenario,
                                              const TrialRecord& asked, const std::vector<TrialRecord>& earlier) {
-  if (has_actions_of(read, scenario, asked)) return {};
   const Vector all = deviations(read, scenario, asked);
+  if (largest_part(all, scenario.task) <= kSameActions) return {};
   const std::string cause = cause_of(read, scenario, asked, earlier);
   std::vector<std::string> sentences;
   for (Index i = 0; i < all.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "rehearse/experiment/run_folder.hpp"
 
+#include <algorithm>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -25,6 +26,17 @@ fs::path log_file(const fs::path& run, Index log) { return run / "logs" / fmt::f
 
 fs::path motion_file(const fs::path& run, const char* kind, Index trial) {
   return run / "motion" / fmt::format("{}-{:03}.json", kind, trial);
+}
+
+/// True if the spec alone does not give what is in the history.
+bool has_told_files(const History& history) {
+  return !history.logs.empty() ||
+         std::ranges::any_of(history.trials, [](const TrialRecord& trial) { return !trial.file_checksum.empty(); });
+}
+
+void say_that_told(const fs::path& spec) {
+  const std::string text = files::read_file(spec), told = of_told_run(text);
+  if (told != text) files::write_file(spec, told, files::Durability::power);
 }
 
 std::string already_exists(const fs::path& path) {
@@ -131,6 +143,7 @@ void RunFolder::write_checkpoint(const History& history) const {
 }
 
 void RunFolder::write_tables(const History& history, const Resolved& resolved) const {
+  if (has_told_files(history)) say_that_told(path_ / kSpec);
   files::write_file(path_ / "trials.csv",
                     trials_csv(history.trials, tunable_names(resolved.prior), resolved.scenario.evaluations > 0));
   files::write_file(path_ / "timings.csv", timings_csv(history.trials));

@@ -53,7 +53,7 @@ class RunFolder {
 
   void write_checkpoint(const History& history) const;
 
-  /// Every table that follows from the history.
+  /// Every table that follows from the history, and the first line of spec.toml, where files told of trials or logs.
   void write_tables(const History& history, const Resolved& resolved) const;
 
   /// Files about a trial: what the model expected, and what happened.

@@ -13,6 +13,8 @@
 namespace rehearse::experiment {
 namespace {
 
+constexpr std::string_view kComplete =
+    "# A run of Rehearse, complete: `rehearse learn` of this file gives the same trials.csv.";
 constexpr std::int64_t kSpecFormat = 1;
 constexpr std::array<std::string_view, 3> kSections = {"scenario", "learner", "prior"};
 
@@ -115,17 +117,16 @@ std::vector<FileOption> read_options(const toml::table& file, files::TomlReader&
 }  // namespace
 
 std::string of_told_run(std::string toml) {
-  return toml.replace(
-      0, toml.find('\n'),
-      "# A run of Rehearse that is told of its robot: `rehearse learn` of this file begins one that was "
-      "told nothing yet.");
+  if (toml.starts_with(kComplete))
+    toml.replace(0, kComplete.size(),
+                 "# A run of Rehearse that is told of its robot: `rehearse learn` of this file begins one that was "
+                 "told nothing yet.");
+  return toml;
 }
 
 std::string to_toml(const Spec& spec, const Comments& comments) {
-  std::string text = fmt::format(
-      "# A run of Rehearse, complete: `rehearse learn` of this file gives the same trials.csv.\n"
-      "format = {}\n\n[run]\nscenario = {}\n",
-      kSpecFormat, in_quotes(spec.scenario));
+  std::string text =
+      fmt::format("{}\nformat = {}\n\n[run]\nscenario = {}\n", kComplete, kSpecFormat, in_quotes(spec.scenario));
   if (!spec.robot.empty()) text += option_line("robot = " + in_quotes(spec.robot), "robot", comments);
   text += fmt::format("learner = {}\n", in_quotes(spec.learner));
   if (!spec.prior.empty()) text += fmt::format("prior = {}\n", in_quotes(spec.prior));

@@ -15,7 +15,8 @@ namespace rehearse::experiment {
 /// The spec as TOML, with a comment behind each option that has one.
 std::string to_toml(const Spec& spec, const Comments& comments = {});
 
-/// Such a text whose first line says that the file alone does not give the run: its episodes, or logs, were told.
+/// Such a text whose first line says that the file alone does not give the run: its episodes, or logs, were told. A
+/// first line that is another stays.
 std::string of_told_run(std::string toml);
 
 /// A spec read from a file, with the line of each key.

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -33,7 +34,8 @@ std::vector<std::string> known_keys(const Fields& a, const Fields& b) {
 
 StudySetup set_up_study(const Catalogue& catalogue, const StudyRequest& request, Violations& violations) {
   const std::string name = catalogue.scenario_name(request.robot);
-  const auto builder = catalogue.scenario_or_throw(name);
+  std::unique_ptr<scenario::ScenarioBuilder> builder;
+  if (!violations.attempt([&] { builder = catalogue.scenario_or_throw(name); })) violations.throw_if_any();
   StudySetup setup;
   const Fields own = [&](FieldVisitor& v) { setup.options.fields(v); };
   const Fields of_robot = [&](FieldVisitor& v) { builder->fields(v); };
@@ -67,14 +69,10 @@ ReadLog read_log(const ToldFile& file, const StudySetup& setup) {
   recording::Recording recording = recording::read_recording(file.bytes, path, task, setup.options.read);
   for (std::string& note : notes_on_ends(recording.episode, task)) recording.notes.push_back(std::move(note));
   const Actuators actuators = task.actuators();
-  Matrix measured = recording.episode.states;
-  if (recording::ReadOptions plain = setup.options.read; plain.average) {
-    plain.average = false;
-    measured = recording::read_recording(file.bytes, path, task, plain).episode.states;
-  }
+  Matrix measured = setup.options.read.average ? std::move(recording.unaveraged)
+                                               : recording.episode.states.leftCols(actuators.own_states());
   return {path,
-          {file.path.stem().string(), study::robot_alone(std::move(recording.episode), actuators),
-           measured.leftCols(actuators.own_states())},
+          {file.path.stem().string(), study::robot_alone(std::move(recording.episode), actuators), std::move(measured)},
           std::move(recording.notes)};
 }
 

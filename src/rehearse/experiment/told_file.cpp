@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/core/angle.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/experiment/policy_match.hpp"
 #include "rehearse/files/checksum.hpp"
 #include "rehearse/rollout/execute.hpp"
@@ -41,8 +42,8 @@ std::vector<std::string> sentences_on_start(const Episode& episode, const Task& 
     const double usual =
         std::max({0.1 * range, 6 * task.start_std(i), 4 * unsteadiness(x), 0.01 * std::abs(mean), kRounding});
     if (std::abs(away) > usual)
-      sentences.push_back(fmt::format("starts at {} = {:.3g} {}, the task at {:.3g} {}", state.name, x(0), state.unit,
-                                      mean, state.unit));
+      sentences.push_back(fmt::format("starts at {} = {:.3g}{}, the task at {:.3g}{}", state.name, x(0),
+                                      unit_text(state.unit), mean, unit_text(state.unit)));
   }
   return sentences;
 }
@@ -59,6 +60,12 @@ std::string cut_short(const ToldFile& file, Index steps, Index horizon, const st
       "operator cut the episode short, say why: --stopped \"…\" (in Python stopped=\"…\"){}{}",
       file.path.string(), steps, horizon, horizon + 1,
       notes.empty() ? "" : ". How the file was read: ", fmt::join(notes, "; "));
+}
+
+/// No more than so many steps. The beginning of a longer file is read anew: what is said of its rows is of these alone.
+recording::Recording read_steps(const ToldFile& file, const Task& task, Index most) {
+  if (file.whole && file.whole->episode.steps() <= most) return *file.whole;
+  return recording::read_recording(file.bytes, file.path.string(), task, {.max_steps = most});
 }
 
 /// No more steps than a trial has.
@@ -94,7 +101,7 @@ std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
   Violations violations;
   for (const ToldFile& file : files)
     violations.attempt([&] {
-      recording::Recording read = recording::read_recording(file.bytes, file.path.string(), task);
+      recording::Recording read = read_steps(file, task, recording::ReadOptions().max_steps);
       for (const Log& log : logs)
         if (log.episode.has_numbers_of(read.episode))
           violations.add(fmt::format("{} and {} have the same numbers", log.name, file.path.string()));
@@ -159,8 +166,7 @@ bool may_follow_policy(const recording::Recording& read, const scenario::Scenari
 ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked,
                        const std::vector<TrialRecord>& earlier, const std::optional<Stop>& stopped) {
   const Task& task = scenario.task;
-  recording::Recording read =
-      recording::read_recording(file.bytes, file.path.string(), task, {.max_steps = task.horizon});
+  recording::Recording read = read_steps(file, task, task.horizon);
   const Index recorded = read.episode.steps();
   const double off = part_of_step(read, task);
   ToldEpisode told{rollout::judged(std::move(read.episode), task), std::move(read.notes)};

@@ -22,7 +22,8 @@ struct Stop {
 struct ToldFile {
   std::filesystem::path path;
   std::string bytes;
-  std::string checksum;  // 16 digits
+  std::string checksum;                       // 16 digits
+  std::optional<recording::Recording> whole;  // what `readable` says, once it was asked: long files take seconds
 };
 
 /// The files that can be read, each once; the others become violations.

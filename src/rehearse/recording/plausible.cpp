@@ -144,8 +144,8 @@ void check_jumps(const Channel& state, const Channel* rate, Problems& problems) 
     const Sample &before = state.samples[i], &after = state.samples[i + 1];
     problems.add(
         after.row, "jump of " + state.name,
-        fmt::format("{} jumps from {:.6g} to {:.6g} {} in {:.6g} s, by more than the {:.3g} that are plausible",
-                    state.name, before.value, after.value, state.unit, after.time_s - before.time_s, bound));
+        fmt::format("{} jumps from {:.6g} to {:.6g}{} in {:.6g} s, by more than the {:.3g} that are plausible",
+                    state.name, before.value, after.value, unit_text(state.unit), after.time_s - before.time_s, bound));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -177,7 +178,8 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   problems.throw_if_any();
   const std::vector<double> away_s = away_from_rows_s(channels.states.front().samples, grid);
   recording.off_s = statistics::quantile(away_s, 0.9);
-  const Resampled changed = resample(channels, grid, options.average, recording.episode);
+  Resampled changed = resample(channels, grid, options.average, recording.episode);
+  recording.unaveraged = std::move(changed.unaveraged);
   note_resampling(channels, grid, changed, std::ranges::max(away_s), recording.notes);
   add_memory(recording.episode, task);
   return recording;
@@ -188,10 +190,6 @@ std::string read_bytes(const std::filesystem::path& path, const ReadOptions& opt
   const auto bytes = std::filesystem::file_size(path, ignored);
   if (!ignored) check_size(static_cast<double>(bytes), path.string(), options);
   return files::read_file(path, files::Links::follow);
-}
-
-Recording read_file(const std::filesystem::path& path, const Task& task, const ReadOptions& options) {
-  return read_recording(read_bytes(path, options), path.string(), task, options);
 }
 
 }  // namespace rehearse::recording

@@ -36,6 +36,7 @@ struct Recording {
   Episode episode;
   std::vector<std::string> notes;  // what was done to the numbers, a sentence each
   double off_s = 0;                // of nine in ten control steps at most, to the nearest row
+  Matrix unaveraged;               // T+1 × the robot's own states, as without `average`; empty without it
 };
 
 /// Use it for logs and for episodes that Rehearse did not drive. Columns are found by name: time, every state, every
@@ -50,8 +51,5 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
 
 /// The bytes of a file, which is refused unread if it is too large.
 std::string read_bytes(const std::filesystem::path& path, const ReadOptions& options = {});
-
-/// The recording in a file.
-Recording read_file(const std::filesystem::path& path, const Task& task, const ReadOptions& options = {});
 
 }  // namespace rehearse::recording

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -187,6 +188,11 @@ void check_gaps(const Channels& channels, const Grid& grid, double max_gap_s, Pr
 
 Resampled resample(const Channels& channels, const Grid& grid, bool average, Episode& episode) {
   std::vector<char> states(static_cast<std::size_t>(grid.steps) + 1, 1), actions = states, on_lines(states.size(), 0);
+  Matrix unaveraged;
+  if (average) {
+    std::vector<char> exact = states, lines = on_lines;  // the counts are of the averaged states
+    unaveraged = states_on(channels.states, grid, false, exact, lines);
+  }
   episode.states = states_on(channels.states, grid, average, states, on_lines);
   episode.true_states =
       channels.truths.empty() ? episode.states : states_on(channels.truths, grid, average, states, on_lines);
@@ -195,7 +201,7 @@ Resampled resample(const Channels& channels, const Grid& grid, bool average, Epi
   const auto count = [&](const std::vector<char>& marks, char mark) {
     return std::min(grid.steps, static_cast<Index>(std::ranges::count(marks, mark)));
   };
-  return {count(states, 0), count(actions, 0), count(on_lines, 1)};
+  return {count(states, 0), count(actions, 0), count(on_lines, 1), std::move(unaveraged)};
 }
 
 }  // namespace rehearse::recording

@@ -33,6 +33,7 @@ void check_gaps(const Channels& channels, const Grid& grid, double max_gap_s, Pr
 struct Resampled {
   Index states = 0, actions = 0;
   Index on_lines = 0;
+  Matrix unaveraged;  // the states as without `average`; empty without it
 };
 
 /// The episode on the grid (recording.hpp says how).

@@ -4,6 +4,7 @@
 
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
 #include "rehearse/experiment/ask_tell.hpp"
 #include "wrapped.hpp"
 
@@ -145,6 +146,58 @@ TEST_F(KeptTells, ADiskThatRefusesIsAFailureOfTheRun) {
   const fs::path driven = path.parent_path() / "driven";
   start_run(fake::catalogue(), fake::line_spec(1), driven, {});
   EXPECT_THROW(tell_run(fake::catalogue(), path, {{driven / "trajectories/trial-001.csv"}, {}}, {}), RunFailed);
+}
+
+/// Loses logs, and says whether a policy could be run whose trial is not asked for.
+class LosesLogs final : public fake::Wrapped {
+ public:
+  LosesLogs(std::unique_ptr<learners::Learner> inner, const fs::path& run, bool& stale)
+      : Wrapped(std::move(inner)), run_(run), stale_(stale) {}
+  void study(const std::vector<Episode>& logs) override {
+    if (logs.empty()) return;
+    stale_ = fs::exists(run_ / "next") && !RunFolder::read(run_).history.asked;
+    throw std::runtime_error("the logs are lost");
+  }
+
+ private:
+  fs::path run_;
+  bool& stale_;
+};
+
+TEST_F(KeptTells, APolicyThatLogsWouldHaveDroppedIsThereAgainWhereTheyAreNotKept) {
+  const fs::path driven = path.parent_path() / "driven";
+  start_run(fake::catalogue(), fake::line_spec(3), driven, {});
+  const TellRequest logs{{driven / "trajectories/trial-002.csv", driven / "trajectories/trial-003.csv"}, {}};
+  bool stale = false;
+  const Catalogue loses =
+      fake::catalogue_of([&](auto inner) { return std::make_unique<LosesLogs>(std::move(inner), path, stale); });
+  ask_run(loses, path, {});
+  const std::string checkpoint = files::read_file(path / "checkpoint"),
+                    policy = files::read_file(path / "next/policy.json");
+  const auto is_as_before = [&] {
+    return files::holds(path / "checkpoint", checkpoint) && files::holds(path / "next/policy.json", policy);
+  };
+  EXPECT_THROW(tell_run(loses, path, logs, {}), RunFailed);
+  EXPECT_FALSE(stale) << "a kill would have left it";
+  EXPECT_TRUE(is_as_before());
+  EXPECT_FALSE(fs::exists(path / "told"));
+  fs::create_symlink("spec.toml", path / "done");  // so that nothing can be kept
+  EXPECT_THROW(tell_run(loses, path, logs, {}), InvalidInput);
+  EXPECT_TRUE(is_as_before());
+}
+
+TEST_F(KeptTells, TheSpecOfARunThatWasToBeDrivenSaysThatItWasTold) {
+  const fs::path driven = path.parent_path() / "driven", stopped = path.parent_path() / "stopped";
+  start_run(fake::catalogue(), fake::line_spec(3), driven, {});
+  EXPECT_THROW(start_run(fake::catalogue(), fake::line_spec(3), stopped, {.stop = [] { return true; }}), Interrupted);
+  const auto first_line = [&] { return fake::lines_of(stopped / "spec.toml").front(); };
+  const std::string before = files::read_file(stopped / "spec.toml");
+  ask_run(fake::catalogue(), stopped, {});
+  EXPECT_NE(first_line().find("gives the same trials.csv"), std::string::npos);
+  tell_run(fake::catalogue(), stopped, {{driven / "trajectories/trial-001.csv"}, {}}, {});
+  EXPECT_NE(first_line().find("that is told of its robot"), std::string::npos) << first_line();
+  take_back(fake::catalogue(), stopped, {});
+  EXPECT_EQ(files::read_file(stopped / "spec.toml"), before);
 }
 
 }  // namespace

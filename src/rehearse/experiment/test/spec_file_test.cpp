@@ -21,6 +21,15 @@ TEST(SpecFile, ComesBackAsItWas) {
   }
 }
 
+TEST(SpecFile, OfARunThatIsToldSaysSoInPlaceOfWhatItSaid) {
+  const std::string text = to_toml(spec_of("echo", "near")), told = of_told_run(text);
+  EXPECT_TRUE(told.starts_with("# A run of Rehearse that is told of its robot: "));
+  EXPECT_EQ(told.substr(told.find('\n')), text.substr(text.find('\n')));
+  EXPECT_EQ(of_told_run(told), told);
+  const std::string without = text.substr(text.find('\n') + 1);
+  EXPECT_EQ(of_told_run(without), without) << "somebody took the line out";
+}
+
 TEST(SpecFile, SaysBehindEachOptionWhatItDoes) {
   const Resolved resolved = resolve(fake::catalogue(), spec_of("echo", "near", {{"told_by", "measured"}}));
   const std::string text = to_toml(resolved.spec, resolved.comments);

@@ -1,9 +1,11 @@
 #include "rehearse/experiment/study_setup.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -34,6 +36,28 @@ TEST(StudySetup, SaysAllThatIsWrong) {
     set_up({.robot = "line", .prior = "nope", .settings = {{"nois", "1"}, {"rows", "-1"}}});
   });
   for (const char* part : {"nope", "nois", "rows = -1"}) EXPECT_NE(said.find(part), std::string::npos) << said;
+  Violations before;
+  before.add("threads = 0");
+  const std::string unknown = fake::message_of<InvalidInput>(
+      [&] { set_up_study(fake::catalogue(), {.robot = "lin", .prior = {}, .settings = {}}, before); });
+  for (const char* part : {"threads = 0", "'lin'"}) EXPECT_NE(unknown.find(part), std::string::npos) << unknown;
+}
+
+// Eight rows a step, which flicker.
+TEST(StudySetup, ForecastsOfLogsAreComparedWithStatesBeforeAveraging) {
+  std::string text = "time [s],x [m],v [m/s]\n";
+  for (int i = 0; i <= 96; ++i) text += fmt::format("{},{},0.5\n", 0.0125 * i, i % 2 == 0 ? 0.01 : -0.01);
+  const std::filesystem::path path = fake::test_folder() / "log.csv";
+  files::write_file(path, text);
+  const auto log_with = [&](const char* average) {
+    const StudySetup setup = set_up({.robot = "line", .prior = {}, .settings = {{"read.average", average}}});
+    Violations violations;
+    return read_logs({path.string()}, {}, setup, violations).logs.at(0).log;
+  };
+  const study::Log averaged = log_with("true"), plain = log_with("false");
+  EXPECT_EQ(plain.measured, plain.episode.states);
+  EXPECT_EQ(averaged.measured, plain.episode.states);
+  EXPECT_LT(averaged.episode.states.cwiseAbs().maxCoeff(), 0.009);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using fake::line_spec;
 
 // A start that varies by 0.1 m, measured with some noise.
 TEST(ToldFile, OfAStartFarFromTheTasksIsNoted) {
-  const scenario::Scenario scenario = resolve(fake::catalogue(), line_spec(1)).scenario;
+  scenario::Scenario scenario = resolve(fake::catalogue(), line_spec(1)).scenario;
   const auto notes_on_start = [&](double x) {
     std::string text = "time [s],x [m],v [m/s]\n";
     for (int t = 0; t <= 12; ++t) text += fmt::format("{},{},0\n", 0.1 * t, x + (t % 2 == 0 ? 0.01 : -0.01));
@@ -26,6 +26,31 @@ TEST(ToldFile, OfAStartFarFromTheTasksIsNoted) {
   };
   EXPECT_EQ(notes_on_start(4), std::vector<std::string>{"starts at x = 4.01 m, the task at 1 m"});
   EXPECT_EQ(notes_on_start(0.5), std::vector<std::string>{});
+  scenario.task.states[0].unit = "";
+  EXPECT_EQ(notes_on_start(4), std::vector<std::string>{"starts at x = 4.01, the task at 1"});
+}
+
+/// A line's file of so many steps.
+ToldFile file_of_steps(int steps) {
+  std::string text = "time [s],x [m],v [m/s]\n";
+  for (int t = 0; t <= steps; ++t) text += fmt::format("{},{},0.5\n", 0.1 * t, 1 + 0.05 * t);
+  return {"a.csv", text, ""};
+}
+
+TEST(ToldFile, IsReadOnceUnlessItIsLongerThanATrial) {
+  const scenario::Scenario scenario = resolve(fake::catalogue(), line_spec(1)).scenario;
+  const TrialRecord asked{.trial = 1, .policy = "line", .theta = Vector::Zero(2)};
+  for (const int steps : {12, 15}) {
+    const ToldFile unread = file_of_steps(steps);
+    ToldFile read = unread;
+    read.whole = readable(unread, scenario.task);
+    if (steps == 12) read.bytes.clear();  // as if nobody could read them again
+    const ToldEpisode a = episode_of(unread, scenario, asked, {}, {}), b = episode_of(read, scenario, asked, {}, {});
+    EXPECT_EQ(a.episode.states, b.episode.states) << steps;
+    EXPECT_EQ(a.notes, b.notes) << steps;
+    read.bytes.clear();
+    EXPECT_EQ(logs_of({read}, scenario.task).at(0).episode.steps(), steps);
+  }
 }
 
 TEST(ToldFile, ALogThatIsMostlyBeyondTheEndIsNoted) {

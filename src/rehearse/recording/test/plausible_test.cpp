@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/core/test/test_tools.hpp"
 
 namespace rehearse::recording {
 namespace {
@@ -82,6 +84,16 @@ TEST(Jumps, SamplesThatAreWrongAreFound) {
   Problems problems("f");
   check_jumps(shifted, &rate, problems);
   EXPECT_FALSE(problems.empty());
+}
+
+TEST(Jumps, OfAStateWithoutAUnitAreSaidWithoutOne) {
+  Channel level = channel_of("level", 1, 60, [](double t) { return t; });
+  level.unit = "";
+  level.samples[10].value = 500;
+  Problems problems("f");
+  check_jumps(level, nullptr, problems);
+  const std::string said = message_of<InvalidInput>([&] { problems.throw_if_any(); });
+  EXPECT_NE(said.find("level jumps from 9 to 500 in 1 s"), std::string::npos) << said;
 }
 
 TEST(Rates, AreComparedWhereSamplesAre) {

@@ -29,7 +29,7 @@ TEST(Recording, ATrialOfARunIsReadToTheSameBytes) {
       "0.05,0.202,3.15,0.11,3.1500000000000004,-0.7,0.001\n"
       "0.1,0.203,3.16,0.21,3.25,2,0.002\n"
       "0.15000000000000002,0.204,3.17,0.31,3.35,,0.003\n";
-  const auto [episode, notes, off_s] = read_recording(text, "trial-003.csv", swing_task());
+  const auto [episode, notes, off_s, unaveraged] = read_recording(text, "trial-003.csv", swing_task());
   EXPECT_EQ(episode.states, (Matrix{{0.201, 3.14}, {0.202, 3.15}, {0.203, 3.16}, {0.204, 3.17}}));
   EXPECT_EQ(episode.true_states,
             (Matrix{{0.01, 3.141592653589793}, {0.11, 3.1500000000000004}, {0.21, 3.25}, {0.31, 3.35}}));
@@ -42,7 +42,7 @@ TEST(Recording, ATrialOfARunIsReadToTheSameBytes) {
 TEST(Recording, SaysWhenAClockOfTheDayBegins) {
   const std::string text =
       "time,dq,q,torque\n1700000000.5,0.2,3.14,0.3\n1700000000.55,0.2,3.15,-0.7\n1700000000.6,0.2,3.16,\n";
-  const auto [episode, notes, off_s] = read_recording(text, "log.csv", swing_task());
+  const auto [episode, notes, off_s, unaveraged] = read_recording(text, "log.csv", swing_task());
   ASSERT_FALSE(notes.empty());
   EXPECT_EQ(notes.front(), "step 0 is at 1700000000.5 s, the first time at which all columns have numbers");
 }
@@ -54,7 +54,7 @@ TEST(Recording, HasTheMemoryOfActuators) {
   task = with_memory(task);
   const std::string text =
       "time,dq,q,torque_last,torque\n0,0.2,3.14,9,0.3\n0.05,0.2,3.15,9,-0.7\n0.1,0.2,3.16,9,2\n0.15,0.2,3.17,9,\n";
-  const auto [episode, notes, off_s] = read_recording(text, "log.csv", task);
+  const auto [episode, notes, off_s, unaveraged] = read_recording(text, "log.csv", task);
   EXPECT_TRUE(notes.empty());
   ASSERT_EQ(episode.states.cols(), 5);
   EXPECT_EQ(episode.states.leftCols(2), (Matrix{{0.2, 3.14}, {0.2, 3.15}, {0.2, 3.16}, {0.2, 3.17}}));
@@ -64,7 +64,7 @@ TEST(Recording, HasTheMemoryOfActuators) {
 }
 
 TEST(Recording, AnotherRateIsResampled) {
-  const auto [episode, notes, off_s] = read_recording(swing_csv(500, 0.0033), "log.csv", swing_task());
+  const auto [episode, notes, off_s, unaveraged] = read_recording(swing_csv(500, 0.0033), "log.csv", swing_task());
   ASSERT_EQ(episode.steps(), 32);
   for (Index k = 0; k <= episode.steps(); ++k) {
     const double t = static_cast<double>(k) * 0.05;
@@ -81,7 +81,7 @@ TEST(Recording, AnotherRateIsResampled) {
 TEST(Recording, ALoopThatIsALittleLateIsSaidToBeSo) {
   std::string late = "time,dq,q,torque\n";
   for (int k = 0; k <= 40; ++k) late += fmt::format("{},0.2,{},0\n", 0.05 * k + (k % 2 == 0 ? 1e-4 : 3e-4), 0.01 * k);
-  const auto [episode, notes, off_s] = read_recording(late, "log.csv", swing_task());
+  const auto [episode, notes, off_s, unaveraged] = read_recording(late, "log.csv", swing_task());
   EXPECT_EQ(episode.steps(), 40);
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_EQ(notes[0], "rows are up to 0.0002 s off the control steps of 0.05 s: numbers are interpolated");
@@ -104,6 +104,17 @@ TEST(Recording, LinesThroughRowsAreSaidOnlyWhereThereAreSuch) {
   EXPECT_NE(said(swing_csv(41, 0.055)).find("states are interpolated linearly"), std::string::npos);
 }
 
+TEST(Recording, StatesAreKeptAsTheyWereBeforeAveraging) {
+  Task task = swing_task();
+  task.actions[0].actuation = {.lag_s = 0.03};
+  task = with_memory(task);
+  const Recording plain = read_recording(swing_csv(500, 0.0033), "log.csv", task);
+  const Recording averaged = read_recording(swing_csv(500, 0.0033), "log.csv", task, {.average = true});
+  EXPECT_EQ(plain.unaveraged.size(), 0);
+  EXPECT_EQ(averaged.unaveraged, plain.episode.states.leftCols(2));
+  EXPECT_NE(averaged.unaveraged, averaged.episode.states.leftCols(2));
+}
+
 TEST(Recording, CellsThatAreEmptyAreSaidToBeSo) {
   const auto notes = read_recording(with_cell(swing_csv(), 9, 3, ""), "log.csv", swing_task()).notes;
   ASSERT_EQ(notes.size(), 1U);
@@ -117,7 +128,7 @@ TEST(Recording, WhatEditorsAndRobotsLeaveDoesNoHarm) {
   EXPECT_EQ(read_recording(windows + "\r\n", "log.csv", swing_task()).episode.states, plain.states);
   EXPECT_EQ(read_recording(with_cell(swing_csv(), 9, 3, " "), "log.csv", swing_task()).episode.steps(), plain.steps());
   const std::string cut = swing_csv() + "2.05,1.2,0.";
-  const auto [episode, notes, off_s] = read_recording(cut, "log.csv", swing_task());
+  const auto [episode, notes, off_s, unaveraged] = read_recording(cut, "log.csv", swing_task());
   EXPECT_EQ(episode.states, plain.states);
   EXPECT_EQ(notes[0], "the last row is left out: it has no end, so that it may be cut short");
   EXPECT_EQ(read_recording(swing_csv(), "log.csv", swing_task(), {.max_steps = 7}).episode.steps(), 7);
@@ -127,10 +138,10 @@ TEST(Recording, FilesAreReadAndLargeOnesAreNot) {
   const files::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "log.csv";
   std::ofstream(path) << swing_csv();
-  EXPECT_EQ(read_file(path, swing_task()).episode.steps(), 40);
-  EXPECT_THROW(read_file(path, swing_task(), {.max_bytes = 100}), InvalidInput);
-  EXPECT_THROW(read_file(folder.path() / "none.csv", swing_task()), InvalidInput);
-  EXPECT_THROW(read_file(folder.path(), swing_task()), InvalidInput);
+  EXPECT_EQ(read_bytes(path), swing_csv());
+  EXPECT_THROW(read_bytes(path, {.max_bytes = 100}), InvalidInput);
+  EXPECT_THROW(read_bytes(folder.path() / "none.csv"), InvalidInput);
+  EXPECT_THROW(read_bytes(folder.path()), InvalidInput);
 }
 
 /// A swing whose times, under this title, count so many a second.
