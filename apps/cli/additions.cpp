@@ -18,14 +18,13 @@ void take(const std::string& kind, const std::string& name, std::vector<std::str
 
 void add_robots(experiment::Catalogue& catalogue, const std::vector<RobotMaker>& robots, Violations& violations) {
   std::vector<std::string> taken;
-  for (const auto& builder : catalogue.scenario_builders()) taken.push_back(builder->name());
+  for (const experiment::NamedScenario& each : catalogue.scenarios) taken.push_back(each.name);
   for (const RobotMaker& make : robots) {
     const auto builder = make ? make() : nullptr;
-    if (builder)
-      take("scenario", builder->name(), taken, violations);
-    else
-      violations.add("a robot is null, must be made by a function");
-    catalogue.scenarios.push_back(make);
+    violations.require(builder != nullptr, "a robot is null, must be made by a function");
+    if (!builder) continue;
+    take("scenario", builder->name(), taken, violations);
+    catalogue.scenarios.push_back({builder->name(), make});
   }
 }
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/files/regular_file.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 
 namespace rehearse::apps {
 
@@ -46,8 +46,7 @@ experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const st
     refuse_file_without_ending(built_in, robot);
     return built_in;
   }
-  return built_in.with_robot(files::read_file(robot, files::Links::follow), robot,
-                             std::filesystem::path(robot).parent_path());
+  return experiment::with_robot_of_file(built_in, robot, robot);
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<std::string>& set,

@@ -18,6 +18,7 @@
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/tables.hpp"
@@ -182,8 +183,8 @@ int take_back(const experiment::Catalogue& catalogue, const TellArguments& argum
 
 }  // namespace
 
-int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments) {
-  if (arguments.undo) return take_back(catalogue, arguments);
+int tell(const experiment::Catalogue& built_in, const TellArguments& arguments) {
+  if (arguments.undo) return take_back(built_in, arguments);
   if (arguments.files.empty()) throw InvalidInput("FILE.csv is required: what the robot did");
   if (arguments.no_fault && !arguments.stopped) throw InvalidInput("--no-fault goes with --stopped \"REASON\"");
   if (arguments.stopped && arguments.stopped->empty()) throw InvalidInput("--stopped says no reason");
@@ -193,6 +194,7 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
   again.insert(again.end(), arguments.files.begin(), arguments.files.end());
   if (arguments.stopped) again.insert(again.end(), {"--stopped", *arguments.stopped});
   if (arguments.no_fault) again.emplace_back("--no-fault");
+  const experiment::Catalogue catalogue = experiment::with_robot_of_run(built_in, arguments.folder);
   Console console(Console::Begin::silent);
   return on_console(arguments.folder, threads_or_throw(arguments.threads), console, command_line(again),
                     [&](const experiment::RunOptions& options) {
@@ -207,7 +209,7 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
 int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments) {
   const std::string& folder = arguments.folder;
   const auto [found, is_of_another_program] = status_in(catalogue, folder);
-  const auto& [resolved, history] = found.run;
+  const auto& [resolved, history, of_run] = found.run;
   const experiment::Spec& spec = resolved.spec;
   const Task& task = resolved.scenario.task;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);

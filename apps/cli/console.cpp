@@ -45,10 +45,11 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
   begin_ = trial_begin_ = phase_begin_ = Clock::now();
   if (begins_ == Begin::silent) return;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
+  const Task& task = resolved.scenario.task;
   const std::string trials =
       spec.trials == 0 ? "trials" : (spec.until_solved ? "up to " : "") + counted(spec.trials, "trial");
   line_.print(fmt::format("{} learned by {}{}, seed {}: {} of {} s in {}", spec.scenario, spec.learner, prior,
-                          spec.seed, trials, resolved.scenario.task.episode_s(), folder.string()));
+                          spec.seed, trials, seconds(task.horizon, task.dt_s), folder.string()));
   for (const std::string& warning : resolved.warnings) line_.print("warning: " + warning);
   if (done > 0) line_.print(fmt::format("continuing after trial {}", done));
 }

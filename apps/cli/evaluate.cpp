@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,9 +30,10 @@ namespace fs = std::filesystem;
 
 using experiment::EvaluationRequest, experiment::PreparedEvaluation, experiment::Summary;
 
-/// The arguments as what they mean.
+/// The arguments as what they mean, as far as they are right.
 struct Wanted {
   EvaluationRequest request;
+  bool knows_policy = true;
   Index threads = 0;
   OutputFile table;
 };
@@ -46,11 +48,16 @@ OutputFile table_of(const EvaluateArguments& arguments) {
           }};
 }
 
-Wanted wanted(const EvaluateArguments& arguments) {
-  Violations violations;
+Wanted wanted(const EvaluateArguments& arguments, Violations& violations) {
   Wanted wanted{.request = {.folder = arguments.folder}, .table = table_of(arguments)};
   EvaluationRequest& request = wanted.request;
   request.trial = trial_of(arguments.trial, violations);
+  if (arguments.policy) {
+    violations.attempt([&] { request.policy = files::read_file(*arguments.policy, files::Links::follow); });
+    request.policy_source = *arguments.policy;
+  }
+  violations.require(!arguments.policy || !arguments.trial, "--trial and --policy name two policies");
+  wanted.knows_policy = violations.empty();
   const Fields fields = [&](FieldVisitor& v) {
     request.plan.fields(v);
     v.number("seconds", request.plan.seconds, "length of an episode [s]", above(0));
@@ -61,9 +68,7 @@ Wanted wanted(const EvaluateArguments& arguments) {
   request.seed_of_run = !arguments.seed;
   wanted.threads = threads_of(arguments.threads, violations);
   request.settings = settings_of(arguments.set, violations);
-  violations.require(!arguments.policy || !arguments.trial, "--trial and --policy name two policies");
   if (arguments.out) violations.attempt([&] { check_output(wanted.table); });
-  violations.throw_if_any();
   return wanted;
 }
 
@@ -108,7 +113,6 @@ void write_table(const OutputFile& table, const std::string& text) {
 
 /// An evaluation that is ready to run, and the table that it writes.
 struct Work {
-  const experiment::Catalogue& catalogue;
   PreparedEvaluation prepared;
   OutputFile table;
   std::shared_ptr<const Evaluator> evaluator;
@@ -129,20 +133,22 @@ void require_robot(const experiment::PastRun& run) {
 }
 
 Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) {
-  auto [request, threads, table] = wanted(arguments);
-  const experiment::PastRun run = experiment::read_run(catalogue, request.folder);
-  require_robot(run);
-  check_output(table);  // not after hours of episodes
-  if (arguments.policy) {
-    request.policy = files::read_file(*arguments.policy, files::Links::follow);
-    request.policy_source = *arguments.policy;
-  }
-  return {catalogue, experiment::prepare_evaluation(catalogue, run, std::move(request)), std::move(table),
-          make_stoppable(make_thread_evaluator(static_cast<int>(threads)), [] { return caught_signal() != 0; })};
+  Violations violations;
+  Wanted asked = wanted(arguments, violations);
+  std::optional<experiment::PastRun> run;
+  const bool has_robot = violations.attempt([&] {
+    run = experiment::read_run(catalogue, asked.request.folder);
+    require_robot(*run);
+  });
+  if (has_robot && !arguments.out)  // now, not after hours of episodes
+    violations.attempt([&] { check_output(asked.table); });
+  if (!has_robot || !asked.knows_policy) violations.throw_if_any();
+  return {experiment::prepare_evaluation(*run, std::move(asked.request), std::move(violations)), std::move(asked.table),
+          make_stoppable(make_thread_evaluator(static_cast<int>(asked.threads)), [] { return caught_signal() != 0; })};
 }
 
 void announce(const Work& work, const EvaluateArguments& arguments) {
-  const auto& [request, policy, resolved, told] = work.prepared;
+  const auto& [request, policy, of_run, resolved, told] = work.prepared;
   const std::string settings = work.prepared.about().settings;
   const std::string whose = arguments.policy ? *arguments.policy : fmt::format("trial {}", policy.learned.trial);
   const auto& earned = policy.total_reward;
@@ -177,7 +183,7 @@ void evaluate_episodes(const Work& work) {
 }
 
 void evaluate_robustness(const Work& work) {
-  const auto all = experiment::robustness(work.catalogue, work.prepared, *work.evaluator);
+  const auto all = experiment::robustness(work.prepared, *work.evaluator);
   print_robustness(all);
   write_table(work.table, experiment::robustness_csv(all, work.prepared.about()));
 }

@@ -8,6 +8,7 @@
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/given_policy.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
@@ -56,9 +57,8 @@ std::optional<SpecFile> spec_file(const LearnArguments& arguments, const std::op
 Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments,
                      const std::optional<GivenFile>& file) {
   if (!file) return catalogue;
-  const std::filesystem::path folder = std::filesystem::path(arguments.scenario).parent_path();
-  if (file->describes_run) return experiment::with_robot_of_run(catalogue, folder);
-  return catalogue.with_robot(file->text, arguments.scenario, folder);
+  if (!file->describes_run) return with_robot(catalogue, arguments.scenario);
+  return experiment::with_robot_of_run(catalogue, std::filesystem::path(arguments.scenario).parent_path());
 }
 
 /// Throws the violations that there are, and those of a run's numbers and its learner, whatever the robot.
@@ -80,15 +80,15 @@ Spec named_spec(const Catalogue& catalogue, const LearnArguments& arguments, Vio
   return spec;
 }
 
-/// Complete, so that the default folder can be named after it.
-Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, const std::optional<SpecFile>& file,
-                   Violations& violations) {
+/// Makes the spec complete, so that the default folder can be named after it. False: a violation says why not.
+bool complete(Spec& spec, const Catalogue& catalogue, const std::optional<SpecFile>& file, Violations& violations) {
   try {
-    return experiment::resolve(catalogue, spec).spec;
+    spec = experiment::resolve(catalogue, spec).spec;
+    return true;
   } catch (const InvalidInput& error) {
     for (const std::string& violation : error.violations())
       violations.add(file ? file->located(catalogue, violation) : violation);
-    return spec;
+    return false;
   }
 }
 
@@ -111,37 +111,39 @@ int learn(const Catalogue& built_in, const LearnArguments& arguments) {
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
   if (arguments.out && !arguments.out->empty())
     violations.attempt([&] { experiment::RunFolder::require_absent(*arguments.out); });
-  std::optional<GivenFile> given;
+  std::optional<std::string> policy;
+  if (arguments.policy) violations.attempt([&] { policy = files::read_file(*arguments.policy, files::Links::follow); });
   Catalogue catalogue;
+  std::optional<SpecFile> file;
+  Spec spec;
   const bool known = violations.attempt([&] {
-    given = read_given(arguments.scenario);
+    const std::optional<GivenFile> given = read_given(arguments.scenario);
     catalogue = with_given(built_in, arguments, given);
+    file = spec_file(arguments, given, violations);
+    spec = file ? file->spec() : named_spec(catalogue, arguments, violations);
   });
   if (!known) check_without_robot(built_in, arguments, violations);
-  const std::optional<SpecFile> file = spec_file(arguments, given, violations);
-  Spec spec = file ? file->spec() : named_spec(catalogue, arguments, violations);
   set_numbers(spec, arguments.trials, arguments.seed, violations);
   spec.until_solved |= arguments.until_solved;
   if (arguments.preset) violations.attempt([&] { spec = experiment::with_preset(catalogue, spec, *arguments.preset); });
   for (auto& setting : settings) spec.options.push_back(std::move(setting));
-  spec = resolved_spec(catalogue, spec, file, violations);
+  if (complete(spec, catalogue, file, violations) && policy)
+    violations.attempt([&] { spec = experiment::with_start(catalogue, spec, *policy, *arguments.policy); });
   violations.throw_if_any();
-  if (arguments.policy)
-    spec = experiment::with_start(catalogue, spec, files::read_file(*arguments.policy, files::Links::follow),
-                                  *arguments.policy);
   const std::filesystem::path folder = arguments.out.value_or("runs/" + experiment::run_name(spec));
   return run_on_console(catalogue, folder, threads, [&](const RunOptions& options) {
     return experiment::start_run(catalogue, spec, folder, options);
   });
 }
 
-int resume(const Catalogue& catalogue, const ResumeArguments& arguments) {
+int resume(const Catalogue& built_in, const ResumeArguments& arguments) {
   Violations violations;
   Spec numbers;
   set_numbers(numbers, arguments.trials, {}, violations);
   const Index threads = threads_of(arguments.threads, violations);
   violations.throw_if_any();
   const auto until = arguments.trials ? std::optional<experiment::Until>(numbers.trials) : std::nullopt;
+  const Catalogue catalogue = experiment::with_robot_of_run(built_in, arguments.folder);
   return run_on_console(catalogue, arguments.folder, threads, [&](const RunOptions& options) {
     return experiment::resume_run(catalogue, arguments.folder, until, options);
   });

@@ -213,6 +213,8 @@ std::string entry_json(const experiment::Catalogue& catalogue, const std::string
 }
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments) {
+  if (arguments.schema && (arguments.name || arguments.json || arguments.options || arguments.expert))
+    throw InvalidInput("--schema is of all robots' files, so it stands alone");
   if (arguments.name && arguments.json) {
     fmt::print("{}\n", entry_json(catalogue, *arguments.name));
   } else if (arguments.name) {

@@ -58,6 +58,8 @@ Page filled(const report::Report& report, const std::string& share) {
 
 }  // namespace
 
+void require_page_template(const std::string& share) { page_template(share); }
+
 Page report_page(const experiment::Catalogue& built_in, const fs::path& folder, const std::string& share) {
   const auto robot = [&](const std::string& scenario) { return facts_of(built_in, folder, scenario); };
   return filled(report::read_folder(folder, {archive_space, robot}), share);

@@ -14,6 +14,9 @@ struct Page {
   std::vector<report::Problem> problems;  // parts of the folder that could not be used
 };
 
+/// Throws InvalidInput if the page without data is not built, so that nobody learns of it after the work.
+void require_page_template(const std::string& share);
+
 /// The page of a run or of a campaign. built_in: the robots whose task the page describes. share: the folder of the
 /// page without data, where it is not beside the program. Throws InvalidInput.
 Page report_page(const experiment::Catalogue& built_in, const std::filesystem::path& folder, const std::string& share);

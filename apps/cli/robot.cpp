@@ -14,6 +14,7 @@
 #include "apps/cli/complain.hpp"
 #include "apps/cli/output_file.hpp"
 #include "apps/cli/program.hpp"
+#include "apps/cli/report_page.hpp"
 #include "apps/cli/signals.hpp"
 #include "apps/cli/status_line.hpp"
 #include "rehearse/check/complaints.hpp"
@@ -59,7 +60,7 @@ void print_lines(std::string_view indent, const std::vector<std::string>& lines)
 /// summary: of the robot, with its condition of success.
 void print_task(const scenario::Scenario& scenario, const std::string& summary, const scenario::Details& details) {
   const Task& task = scenario.task;
-  put("{}: {} steps of {} s, {} s in all\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
+  put("{}: {} steps of {} s, {} s in all\n", scenario.name, task.horizon, task.dt_s, seconds(task.horizon, task.dt_s));
   if (!summary.empty()) put("  {}\n", summary);
   put("\nstates\n");
   for (std::size_t i = 0; i < own_states(task).size(); ++i) {
@@ -192,7 +193,10 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   require_page(arguments.out, violations);
   violations.require(!arguments.out || !arguments.no_plant, "--out shows the plant's motion: leave --no-plant out");
   violations.throw_if_any();
-  if (arguments.out) check_output(page_file(*arguments.out, "--out FILE.html"));  // before the robot moves
+  if (arguments.out) {  // before the robot moves
+    check_output(page_file(*arguments.out, "--out FILE.html"));
+    require_page_template(share);
+  }
   const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
   const auto builder = catalogue.scenario_or_throw(catalogue.scenario_name(arguments.robot));
   scenario::Scenario scenario = builder->build();

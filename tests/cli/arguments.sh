@@ -212,6 +212,12 @@ expect 0 "best return" - learn pendubot --learner gp-mi "${quick[@]}" --out begu
 printf 'format = 1\nname = "broken"\ndt = 1\n' >broken.toml
 expect 2 "unknown learner 'mii'" - learn broken.toml --learner mii --trials -1
 grep -q "trials = -1" stderr && grep -q "unknown key 'dt'" stderr || fail "a broken file hides other errors: $(cat stderr)"
+sed 's/^name = .*/name = "unnamed"/' broken.toml >unnamed.toml
+expect 2 "there is no scenario 'unnamed'; the file is unnamed.toml" 3 learn unnamed --threads 0 --seed -2
+expect 2 "cannot read missing.json" 2 learn pendubot --learner gp-mi --policy missing.json --seed -1
+expect 2 "cannot read missing.json" 2 evaluate "$run" --policy missing.json --episodes 0
+expect 2 "trial = 99, must be between" 2 evaluate "$run" --trial 99 --episodes 0
+expect 2 "nowhere is not a folder" 2 evaluate nowhere --episodes 0
 expect 2 "unknown option 'q'" - learn pendubot --set q=1 --out "$run"
 grep -q "already exists" stderr || fail "an option hides that the folder is there: $(cat stderr)"
 expect 2 "unknown option 'plant.q'" - evaluate "$run" --trial 99 --set plant.q=1

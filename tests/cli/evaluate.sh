@@ -75,6 +75,9 @@ expect 2 "--trial and --policy name two policies" evaluate run --trial 1 --polic
 expect 2 "seconds = 0.5, must be between" evaluate run --seconds 0.5
 expect 2 "--episodes = 0, must be between" evaluate run --episodes 0
 expect 2 "unknown option 'plant.q'" evaluate run --set plant.q=1
+expect 2 "prior.m changes no episode: no prior plays the robot; what can be set: plant.m, " evaluate run --set prior.m=2 --set hidden=3
+grep -q "hidden changes no episode: it is an option of the policy" said || fail "an option of the policy: $(cat said)"
+expect 2 "search.finalists changes no episode: it is an option of the learner" evaluate run --set search.finalists=2
 expect 2 "--set plant.m: must be KEY=VALUE" evaluate run --set plant.m
 expect 2 "nothing is not a folder" evaluate nothing
 expect 2 "is no policy that" evaluate run --policy run/spec.toml

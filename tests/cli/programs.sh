@@ -17,6 +17,10 @@ same one two "${files[@]}"
 rm programs/pendubot # the run has its own
 "$program" resume extended --trials 2 >output 2>&1 || fail "resume: $(cat output)"
 same one extended "${files[@]}"
+# A run's robot.toml is a robot, with the files that the run keeps.
+"$program" check one/robot.toml >output 2>&1 || fail "check of a run's robot: $(cat output)"
+"$program" learn one/robot.toml --learner gp-mi --trials 0 --out of_kept >output 2>&1 || fail "learn of a run's robot: $(cat output)"
+cmp one/robot/pendubot of_kept/robot/pendubot || fail "the run of a run's robot keeps another program"
 echo "an addition" >>extended/robot/pendubot
 "$program" resume extended --trials 3 >output 2>&1
 [ $? = 2 ] && grep -q "has another robot than this run began with" output || fail "another program: $(cat output)"

@@ -53,7 +53,8 @@ void read_robot(std::string_view text) {
 void read_mjcf(std::string_view text) {
   static const files::TemporaryFolder folder;
   folder.add("model.xml", text);
-  (void)mujoco::warnings_of({.path = (folder.path() / "model.xml").string(), .dt_s = 0.01, .substeps = 1}, {}, {});
+  const mujoco::ModelDescription model{.path = (folder.path() / "model.xml").string(), .dt_s = 0.01, .substeps = 1};
+  (void)mujoco::warnings_of(mujoco::compile(model), {}, {});
 }
 
 void read_campaign(std::string_view text) {

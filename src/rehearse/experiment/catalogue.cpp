@@ -14,20 +14,6 @@
 namespace rehearse::experiment {
 namespace {
 
-template <class Builder>
-std::unique_ptr<Builder> named(std::vector<std::unique_ptr<Builder>> builders, const std::string& name) {
-  for (auto& builder : builders)
-    if (builder->name() == name) return std::move(builder);
-  return nullptr;
-}
-
-template <class Builder>
-std::vector<std::string> names_of(const std::vector<std::unique_ptr<Builder>>& builders) {
-  std::vector<std::string> names;
-  for (const auto& builder : builders) names.push_back(builder->name());
-  return names;
-}
-
 /// The first line in which two texts differ, as each has it.
 std::string first_difference(const std::string& text, const std::string& other) {
   std::istringstream of_text(text), of_other(other);
@@ -53,7 +39,7 @@ scenario::ReadFile files_in(const std::filesystem::path& folder) {
 
 std::vector<std::unique_ptr<scenario::ScenarioBuilder>> Catalogue::scenario_builders() const {
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> builders;
-  for (const auto& make : scenarios) builders.push_back(make());
+  for (const NamedScenario& each : scenarios) builders.push_back(each.make());
   return builders;
 }
 
@@ -65,7 +51,8 @@ std::vector<std::unique_ptr<learners::LearnerBuilder>> Catalogue::learner_builde
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> Catalogue::scenario(const std::string& name) const {
-  return named(scenario_builders(), name);
+  const auto found = std::ranges::find(scenarios, name, &NamedScenario::name);
+  return found == scenarios.end() ? nullptr : found->make();
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> Catalogue::scenario_or_throw(const std::string& name) const {
@@ -75,29 +62,26 @@ std::unique_ptr<scenario::ScenarioBuilder> Catalogue::scenario_or_throw(const st
 }
 
 std::unique_ptr<learners::LearnerBuilder> Catalogue::learner(const std::string& name) const {
-  return named(learner_builders(), name);
+  for (auto& builder : learner_builders())
+    if (builder->name() == name) return std::move(builder);
+  return nullptr;
 }
 
 Catalogue Catalogue::with_robot(const std::string& text, const std::string& source,
                                 const std::filesystem::path& folder) const {
   if (!read_robot) throw InvalidInput(fmt::format("{}: this program reads no robots from files", source));
-  const auto builder = read_robot(text, source, files_in(folder));
+  if (std::ranges::find(robots, text, &RobotFile::text) != robots.end()) return *this;
+  const scenario::MakeBuilder make = read_robot(text, source, files_in(folder));
+  const auto builder = make();
   const std::string name = builder->name();
-  if (const RobotFile* same = robot(name)) {
-    if (same->text == text) return *this;
+  if (const RobotFile* same = robot(name))
     throw InvalidInput(fmt::format("{} and {} are two robots of one name, '{}': {}", source, same->source, name,
                                    first_difference(text, same->text)));
-  }
-  if (scenario(name)) throw InvalidInput(fmt::format("{}: name = '{}' is that of another scenario", source, name));
+  if (std::ranges::find(scenarios, name, &NamedScenario::name) != scenarios.end())
+    throw InvalidInput(fmt::format("{}: name = '{}' is that of another scenario", source, name));
   Catalogue with = *this;
   with.robots.push_back({name, source, text, builder->files()});
-  with.scenarios.emplace_back([read = read_robot, robot = with.robots.back()] {
-    return read(robot.text, robot.source, [&](const std::string& path) -> std::optional<std::string> {
-      for (const scenario::NamedFile& file : robot.files)
-        if (file.path == path) return file.bytes;
-      return {};
-    });
-  });
+  with.scenarios.push_back({name, make});
   return with;
 }
 
@@ -121,7 +105,11 @@ const NotBuilt* Catalogue::left_out(const std::string& name) const {
 std::string Catalogue::why_missing(const std::string& kind, const std::string& name) const {
   if (const NotBuilt* missing = left_out(name))
     return fmt::format("{} '{}' is not built: {}", kind, name, missing->reason);
-  const auto known = kind == "scenario" ? names_of(scenario_builders()) : names_of(learner_builders());
+  std::vector<std::string> known;
+  if (kind == "scenario")
+    for (const NamedScenario& each : scenarios) known.push_back(each.name);
+  else
+    for (const auto& builder : learner_builders()) known.push_back(builder->name());
   if (name.empty()) return fmt::format("no {} is named (known: {})", kind, fmt::join(known, ", "));
   return unknown_name(kind, name, known) +
          (of_run ? fmt::format("; a {} in C++ is known only to the program that began the run",

@@ -34,14 +34,20 @@ struct RobotFile {
 /// Reads the files of a folder that a robot's file names.
 scenario::ReadFile files_in(const std::filesystem::path& folder);
 
-/// Makes a scenario of a robot's file.
-using ReadRobot = std::function<std::unique_ptr<scenario::ScenarioBuilder>(
-    std::string_view text, const std::string& source, const scenario::ReadFile& read_file)>;
+/// A robot that can be made. Its builders have that name.
+struct NamedScenario {
+  std::string name;
+  scenario::MakeBuilder make;
+};
+
+/// Reads a robot's file, once for all of its builders.
+using ReadRobot = std::function<scenario::MakeBuilder(std::string_view text, const std::string& source,
+                                                      const scenario::ReadFile& read_file)>;
 
 /// The robots, learners and presets of a program. apps generates one from their folders; rehearse/cli/cli.hpp adds
 /// those of a program of one's own. A value; every call makes new builders, because their options can be set.
 struct Catalogue {
-  std::vector<std::function<std::unique_ptr<scenario::ScenarioBuilder>()>> scenarios;
+  std::vector<NamedScenario> scenarios;
   std::vector<std::function<std::vector<std::unique_ptr<learners::LearnerBuilder>>()>> learner_families;
   std::vector<NotBuilt> not_built;
   ReadRobot read_robot;                    // null: this program reads no robots from files
@@ -53,8 +59,9 @@ struct Catalogue {
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> scenario_builders() const;
   std::vector<std::unique_ptr<learners::LearnerBuilder>> learner_builders() const;
 
-  /// The catalogue with the robot of a file, which may be there already. folder: where the files are that it names;
-  /// they are read once. Throws InvalidInput if it is none, or has the name of another scenario.
+  /// The catalogue with the robot of a file. One with a robot of the same text is returned as it is, and nothing is
+  /// read. folder: where the files are that it names. Throws InvalidInput if it is none, or has the name of another
+  /// scenario.
   Catalogue with_robot(const std::string& text, const std::string& source, const std::filesystem::path& folder) const;
 
   /// The name of the scenario of a robot that came from this file; else what is given, a name itself.

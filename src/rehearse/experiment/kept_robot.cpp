@@ -12,9 +12,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kSpecFile = "spec.toml";
+
+/// False also where the folder itself cannot be read: who opens it says why.
+bool is_there(const fs::path& file) {
+  std::error_code none;
+  return fs::exists(file, none);
+}
+
 void require_name_of_run(const std::string& given, const fs::path& folder) {
-  const fs::path spec = folder / "spec.toml";
-  if (!fs::exists(spec)) return;
+  const fs::path spec = folder / kSpecFile;
+  if (!is_there(spec)) return;
   const std::string name = from_toml(files::read_file(spec), spec.string()).scenario;
   if (given != name)
     throw InvalidInput(
@@ -23,11 +31,18 @@ void require_name_of_run(const std::string& given, const fs::path& folder) {
 
 }  // namespace
 
+Catalogue with_robot_of_file(const Catalogue& catalogue, const fs::path& file, const std::string& source) {
+  const fs::path folder = file.parent_path();
+  const bool is_kept = file.filename() == kRobotFile && is_there(folder / kSpecFile) && is_there(folder / kRobotFolder);
+  return catalogue.with_robot(files::read_file(file, files::Links::follow), source,
+                              is_kept ? folder / kRobotFolder : folder);
+}
+
 Catalogue with_robot_of_run(const Catalogue& catalogue, const fs::path& folder) {
   for (const RobotFile& given : catalogue.robots) require_name_of_run(given.name, folder);
   const fs::path file = folder / kRobotFile;
   Catalogue of_run =
-      fs::exists(file) ? catalogue.with_robot(files::read_file(file), file.string(), folder / kRobotFolder) : catalogue;
+      is_there(file) ? catalogue.with_robot(files::read_file(file), file.string(), folder / kRobotFolder) : catalogue;
   of_run.of_run = true;
   return of_run;
 }

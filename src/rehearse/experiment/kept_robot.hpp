@@ -11,6 +11,10 @@ namespace rehearse::experiment {
 inline constexpr const char* kRobotFile = "robot.toml";
 inline constexpr const char* kRobotFolder = "robot";  // with the files that it names
 
+/// The catalogue with the robot of a user's file. The files that it names are beside it; of the robot.toml of a run
+/// folder, in that folder's `robot`. source: the file's name in messages. Throws InvalidInput.
+Catalogue with_robot_of_file(const Catalogue& catalogue, const std::filesystem::path& file, const std::string& source);
+
 /// The catalogue with the robot that a run folder keeps, if it keeps one. Throws InvalidInput where the catalogue has a
 /// robot of another name: the functions of one would play the other.
 Catalogue with_robot_of_run(const Catalogue& catalogue, const std::filesystem::path& folder);

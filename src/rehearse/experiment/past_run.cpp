@@ -43,7 +43,9 @@ std::vector<std::pair<std::string, std::string>> PastRun::as_identified(
 
 PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder) {
   auto [spec, history] = RunFolder::read(folder);
-  return {resolve_begun(with_robot_of_run(catalogue, folder), spec), std::move(history)};
+  Catalogue of_run = with_robot_of_run(catalogue, folder);
+  Resolved resolved = resolve_begun(of_run, spec);
+  return {std::move(resolved), std::move(history), std::move(of_run)};
 }
 
 std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {

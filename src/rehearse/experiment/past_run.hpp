@@ -17,6 +17,7 @@ namespace rehearse::experiment {
 struct PastRun {
   Resolved resolved;
   History history;
+  Catalogue catalogue;  // with its robot
 
   /// A trial that is done or asked for, or the one with the highest return if none is named. Throws InvalidInput if
   /// there is none.

@@ -80,7 +80,7 @@ Index EvaluationPlan::steps(const Task& task) const {
   Violations violations;
   violations.require(wanted >= static_cast<double>(task.horizon) && wanted <= kLongest,
                      fmt::format("seconds = {}, must be between {} (an episode of the task) and {}", seconds,
-                                 task.episode_s(), kLongest * task.dt_s));
+                                 rehearse::seconds(task.horizon, task.dt_s), kLongest * task.dt_s));
   violations.add(field_violations([plan = *this](FieldVisitor& v) mutable { plan.fields(v); }));
   violations.throw_if_any();
   return static_cast<Index>(wanted);

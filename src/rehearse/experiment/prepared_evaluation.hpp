@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/given_policy.hpp"
@@ -30,6 +31,7 @@ struct EvaluationRequest {
 struct PreparedEvaluation {
   EvaluationRequest request;  // whose plan has the seed, and whose settings have the prior's parameters as identified
   GivenPolicy policy;
+  Catalogue catalogue;  // with the run's robot
   Resolved resolved;
   bool told = false;  // the run's trials were on a robot that is not its plant
 
@@ -39,13 +41,13 @@ struct PreparedEvaluation {
 
 /// Finds the policy in the run, which may be going on, and makes the robot. Where the prior plays it, its parameters
 /// are those of the newest model. run: the one in request.folder. Throws InvalidInput if the policy or a setting is
-/// wrong, or the robot is not ready (Scenario::require_ready).
-PreparedEvaluation prepare_evaluation(const Catalogue& catalogue, const PastRun& run, EvaluationRequest request);
+/// wrong, a setting would change no episode, or the robot is not ready (Scenario::require_ready). violations: found
+/// before, thrown with those found here.
+PreparedEvaluation prepare_evaluation(const PastRun& run, EvaluationRequest request, Violations violations = {});
 
 /// The episodes, or those with one parameter of the robot changed at a time: as the functions of these names for a
 /// policy.
 std::vector<Outcome> evaluate(const PreparedEvaluation& prepared, const Evaluator& evaluator);
-std::vector<Changed> robustness(const Catalogue& catalogue, const PreparedEvaluation& prepared,
-                                const Evaluator& evaluator);
+std::vector<Changed> robustness(const PreparedEvaluation& prepared, const Evaluator& evaluator);
 
 }  // namespace rehearse::experiment

@@ -16,18 +16,16 @@ std::string joint_name(const mjModel& model, int joint) {
   return name ? fmt::format("joint '{}'", name) : fmt::format("joint number {}", joint);
 }
 
-Vector values_of(const std::vector<ModelParameter>& parameters) {
-  Vector values(static_cast<Index>(parameters.size()));
-  for (std::size_t i = 0; i < parameters.size(); ++i) values(static_cast<Index>(i)) = parameters[i].value;
-  return values;
-}
-
 }  // namespace
 
 CompiledModel::CompiledModel(const ModelDescription& description)
     : file_(std::filesystem::path(description.path).filename().string()),
       original_(load(description.path)),
-      start_values_(values_of(description.parameters)) {
+      start_values_(static_cast<Index>(description.parameters.size())) {
+  for (const ModelParameter& parameter : description.parameters) {
+    start_values_(std::ssize(parameter_names_)) = parameter.value;
+    parameter_names_.push_back(parameter.name);
+  }
   Violations violations;
   read_time(description, violations);
   if (!description.keyframe.empty())
@@ -38,6 +36,9 @@ CompiledModel::CompiledModel(const ModelDescription& description)
   violations.throw_if_any();
   original_->opt.enableflags &= ~mjENBL_SENSORNOISE;  // of a stream that all threads share
 }
+
+SharedModel compile(const ModelDescription& description) { return std::make_shared<const CompiledModel>(description); }
+Index timesteps(const SharedModel& model) { return model->substeps(); }
 
 void CompiledModel::read_time(const ModelDescription& description, Violations& violations) {
   const double dt_s = description.dt_s;

@@ -1,7 +1,7 @@
 #pragma once
-// A description that was checked against its model. For the files of this room.
+// For the files of this room.
 
-#include <memory>
+#include <string>
 #include <vector>
 
 #include "rehearse/core/parameters.hpp"
@@ -11,7 +11,6 @@
 
 namespace rehearse::mujoco {
 
-/// Never changes once it is made. Any thread.
 class CompiledModel {
  public:
   /// Throws InvalidInput, all violations at once.
@@ -35,6 +34,7 @@ class CompiledModel {
   /// their ranges, a line each.
   std::vector<std::string> misfits(const std::vector<Interval>& bounds, const mjData& start) const;
 
+  const std::vector<std::string>& parameter_names() const { return parameter_names_; }
   Vector start_values() const { return start_values_; }  // of the parameters
 
  private:
@@ -53,6 +53,7 @@ class CompiledModel {
   States states_;
   Parameters parameters_;
   std::vector<Target> actions_;
+  std::vector<std::string> parameter_names_;
   Vector start_values_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,17 @@ struct ModelDescription {
   std::vector<Action> actions;
   std::vector<ModelParameter> parameters;
 };
+
+/// A description that was checked against its model. It never changes. Any thread.
+class CompiledModel;
+using SharedModel = std::shared_ptr<const CompiledModel>;
+
+/// Use it once for all simulators, plants and drawings of a model: to read meshes takes seconds, and the files are no
+/// longer needed then. Throws InvalidInput, all violations at once, where the file or the description is wrong.
+SharedModel compile(const ModelDescription& description);
+
+/// Timesteps of the engine in a control step.
+Index timesteps(const SharedModel& model);
 
 /// Warnings to the user of a model and a task, a line each.
 struct Warnings {

@@ -92,7 +92,7 @@ scenario::Pose pose(const mjData& data, const Piece& piece) {
 /// Places of bodies in a state. Every call at a time has an instance of its own.
 class Kinematics {
  public:
-  explicit Kinematics(const std::shared_ptr<const CompiledModel>& compiled)
+  explicit Kinematics(const SharedModel& compiled)
       : instances_(compiled), phi_(compiled->start_values()), states_(compiled->states().size()) {}
 
   void require(const ConstVectorView& state) const {
@@ -118,8 +118,7 @@ class Kinematics {
 
 }  // namespace
 
-scenario::SolidDrawing make_drawing(const ModelDescription& description) {
-  const auto compiled = std::make_shared<const CompiledModel>(description);
+scenario::SolidDrawing make_drawing(const SharedModel& compiled) {
   const auto kinematics = std::make_shared<const Kinematics>(compiled);
   scenario::SolidDrawing drawing;
   std::map<int, int> nameless;

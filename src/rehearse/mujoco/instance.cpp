@@ -16,7 +16,7 @@ void assign(double* to, const Vector& from) { Vector::Map(to, from.size()) = fro
 
 }  // namespace
 
-Instance::Instance(std::shared_ptr<const CompiledModel> compiled)
+Instance::Instance(SharedModel compiled)
     : compiled_(std::move(compiled)), model_(copy(compiled_->original())), data_(make_data(*model_)) {
   start_over();
   const auto numbers = [](const double* from, int size) -> Vector { return Vector::Map(from, size); };

@@ -12,7 +12,7 @@ namespace rehearse::mujoco {
 /// A model in motion. One thread. Unusable after an exception.
 class Instance {
  public:
-  explicit Instance(std::shared_ptr<const CompiledModel> compiled);
+  explicit Instance(SharedModel compiled);
 
   /// phi in the description's order. Throws InvalidInput where a value is not finite or MuJoCo refuses it.
   void apply(const Vector& phi);
@@ -40,7 +40,7 @@ class Instance {
   void start_over();
   bool diverged() const;
 
-  std::shared_ptr<const CompiledModel> compiled_;
+  SharedModel compiled_;
   ModelPointer model_;
   DataPointer data_;
   Vector phi_;                       // that the model has
@@ -51,7 +51,7 @@ class Instance {
 /// Instances for as many calls as there are at a time. Any thread.
 class Instances {
  public:
-  explicit Instances(std::shared_ptr<const CompiledModel> compiled) : compiled_(std::move(compiled)) {}
+  explicit Instances(SharedModel compiled) : compiled_(std::move(compiled)) {}
 
   const CompiledModel& compiled() const { return *compiled_; }
 
@@ -60,7 +60,7 @@ class Instances {
   void give_back(std::unique_ptr<Instance> instance) const { idle_.give_back(std::move(instance)); }
 
  private:
-  std::shared_ptr<const CompiledModel> compiled_;
+  SharedModel compiled_;
   mutable Pool<Instance> idle_;
 };
 

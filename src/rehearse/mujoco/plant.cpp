@@ -12,8 +12,7 @@ namespace {
 
 class ModelPlant final : public system::Plant {
  public:
-  ModelPlant(const PlantOptions& options, std::shared_ptr<const CompiledModel> compiled)
-      : around_(options.around), instance_(std::move(compiled)) {
+  explicit ModelPlant(const PlantOptions& options) : around_(options.around), instance_(options.model) {
     instance_.apply(options.phi);
   }
 
@@ -51,16 +50,15 @@ class ModelPlant final : public system::Plant {
 }  // namespace
 
 std::unique_ptr<system::Plant> make_plant(const PlantOptions& options) {
-  auto compiled = std::make_shared<const CompiledModel>(options.model);
   Violations violations;
   const auto require_size = [&](const char* name, Index size, Index must) {
     violations.require(size == must, fmt::format("{} has {} entries, must have {}", name, size, must));
   };
-  require_size("start_mean", options.around.start_mean.size(), compiled->states().size());
+  require_size("start_mean", options.around.start_mean.size(), options.model->states().size());
   options.around.check(violations);
-  require_size("phi", options.phi.size(), compiled->parameters().size());
+  require_size("phi", options.phi.size(), options.model->parameters().size());
   violations.throw_if_any();
-  return std::make_unique<ModelPlant>(options, std::move(compiled));
+  return std::make_unique<ModelPlant>(options);
 }
 
 }  // namespace rehearse::mujoco

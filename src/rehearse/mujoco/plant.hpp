@@ -11,7 +11,7 @@ namespace rehearse::mujoco {
 /// A robot that MuJoCo plays. Positions and velocities of joints start around a mean; states that are read only follow
 /// from them. What no state gives starts where the keyframe has it and moves on from step to step.
 struct PlantOptions {
-  ModelDescription model;
+  SharedModel model;
   Vector phi;  // in the order of the model's parameters
   system::StartAndSensors around;
 };

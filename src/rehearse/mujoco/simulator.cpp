@@ -13,14 +13,12 @@ namespace rehearse::mujoco {
 namespace {
 
 /// The place in φ of each of the description's parameters.
-std::vector<Index> order_of(const std::vector<ModelParameter>& described, const ParameterSpace& parameters) {
-  std::vector<std::string> names;
+std::vector<Index> order_of(const std::vector<std::string>& names, const ParameterSpace& parameters) {
   std::vector<Index> order;
   Violations violations;
-  for (const ModelParameter& parameter : described) {
-    names.push_back(parameter.name);
-    order.push_back(parameters.find(parameter.name));
-    violations.require(order.back() >= 0, fmt::format("parameter '{}' of the model is missing", parameter.name));
+  for (const std::string& name : names) {
+    order.push_back(parameters.find(name));
+    violations.require(order.back() >= 0, fmt::format("parameter '{}' of the model is missing", name));
   }
   for (const std::string& name : parameters.names())
     violations.require(is_among(name, names),
@@ -32,7 +30,7 @@ std::vector<Index> order_of(const std::vector<ModelParameter>& described, const 
 
 class ModelSimulator final : public system::Simulator {
  public:
-  ModelSimulator(std::shared_ptr<const CompiledModel> compiled, ParameterSpace parameters, std::vector<Index> order)
+  ModelSimulator(SharedModel compiled, ParameterSpace parameters, std::vector<Index> order)
       : instances_(std::move(compiled)), parameters_(std::move(parameters)), order_(std::move(order)) {}
 
   const ParameterSpace& parameters() const override { return parameters_; }
@@ -70,24 +68,15 @@ class ModelSimulator final : public system::Simulator {
 
 }  // namespace
 
-std::shared_ptr<const system::Simulator> make_simulator(const ModelDescription& description,
-                                                        ParameterSpace parameters) {
-  auto compiled = std::make_shared<const CompiledModel>(description);
-  std::vector<Index> order = order_of(description.parameters, parameters);
-  return std::make_shared<ModelSimulator>(std::move(compiled), std::move(parameters), std::move(order));
+std::shared_ptr<const system::Simulator> make_simulator(SharedModel model, ParameterSpace parameters) {
+  std::vector<Index> order = order_of(model->parameter_names(), parameters);
+  return std::make_shared<ModelSimulator>(std::move(model), std::move(parameters), std::move(order));
 }
 
-ParameterSpace parameter_space(const ModelDescription& description) {
-  std::vector<Parameter> parameters;
-  for (const ModelParameter& each : description.parameters)
-    parameters.push_back(Parameter::fixed(each.name, each.value, each.unit));
-  return ParameterSpace(parameters);
-}
-
-Warnings warnings_of(const ModelDescription& description, const std::vector<Interval>& bounds, const Vector& start) {
-  Instance instance(std::make_shared<const CompiledModel>(description));
+Warnings warnings_of(const SharedModel& model, const std::vector<Interval>& bounds, const Vector& start) {
+  Instance instance(model);
   instance.place(start);
-  return {instance.compiled().unseen(), instance.compiled().misfits(bounds, instance.data())};
+  return {model->unseen(), model->misfits(bounds, instance.data())};
 }
 
 }  // namespace rehearse::mujoco

@@ -56,14 +56,41 @@ void require_with_files(const system::Program& program) {
   }
 }
 
+/// The files that a robot names, where dynamics of this source find them; null: there are no such files.
+template <class Source>
+std::shared_ptr<const files::TemporaryFolder> folder_for(const Robot& robot) {
+  const auto is_such = [](const Dynamics& each) { return std::holds_alternative<Source>(each.source); };
+  if (robot.files.empty() || std::ranges::none_of(robot.dynamics, is_such)) return nullptr;
+  auto folder = std::make_shared<files::TemporaryFolder>();
+  for (const scenario::NamedFile& file : robot.files) folder->add(file.path, file.bytes);
+  return folder;
+}
+
 }  // namespace
 
-DynamicsMaker::DynamicsMaker(const Robot& robot) : robot_(robot) {
-  if (robot.files.empty()) return;
-  const auto folder = std::make_shared<files::TemporaryFolder>();
-  for (const scenario::NamedFile& file : robot.files) folder->add(file.path, file.bytes);
-  folder_ = folder;
+void compile_models(Robot& robot, const Task& task, files::FileViolations& violations) {
+  const auto folder = folder_for<ModelSource>(robot);
+  const auto own = static_cast<Index>(robot.states.size());
+  for (Dynamics& dynamics : robot.dynamics) {
+    if (!std::holds_alternative<ModelSource>(dynamics.source)) continue;
+    try {
+      ModelSource model = std::get<ModelSource>(dynamics.source);
+      model.path = folder->path() / model.path;
+      model.dt_s = robot.dt_s;
+      dynamics.model = mujoco::compile(model);
+      dynamics.warnings = mujoco::warnings_of(dynamics.model, task.action_bounds(), task.start_mean.head(own));
+    } catch (const InvalidInput& error) {
+      const std::string beginning = folder->path().string() + "/";
+      for (std::string line : error.violations()) {
+        for (std::size_t at; (at = line.find(beginning)) != std::string::npos;) line.erase(at, beginning.size());
+        if (names_a_missing_file(line)) line += " (MuJoCo sees only files named in `files = […]`)";
+        violations.add(line_of(dynamics, line), fmt::format("[dynamics.{}]: {}", dynamics.name, line));
+      }
+    }
+  }
 }
+
+DynamicsMaker::DynamicsMaker(const Robot& robot) : robot_(robot), folder_(folder_for<ProgramSource>(robot)) {}
 
 system::Program DynamicsMaker::program(const Dynamics& dynamics) const {
   const auto& source = std::get<ProgramSource>(dynamics.source);
@@ -78,13 +105,6 @@ system::Program DynamicsMaker::program(const Dynamics& dynamics) const {
   return program;
 }
 
-mujoco::ModelDescription DynamicsMaker::model(const Dynamics& dynamics) const {
-  ModelSource model = std::get<ModelSource>(dynamics.source);
-  model.path = folder_->path() / model.path;
-  model.dt_s = robot_.dt_s;
-  return model;
-}
-
 std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant& variant, Index substeps) {
   const Dynamics& dynamics = robot_.dynamics_of(variant);
   const ParameterSpace fixed = variant.parameters.fixed_at(variant.parameters.values());
@@ -92,7 +112,7 @@ std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant&
     programs_.emplace_back(variant.name, std::make_shared<system::ProgramSimulator>(program(dynamics), fixed));
     return kept_with(folder_, programs_.back().second);
   }
-  if (std::holds_alternative<ModelSource>(dynamics.source)) return mujoco::make_simulator(model(dynamics), fixed);
+  if (dynamics.model) return mujoco::make_simulator(dynamics.model, fixed);
   if (const auto* function = std::get_if<FunctionSource>(&dynamics.source))
     return system::make_simulator(fixed, function_of(robot_.functions.dynamics, function->name),
                                   robot_.functions.rows_at_once);
@@ -109,8 +129,8 @@ std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Varia
       return system::make_program_plant(program, phi, around, simulator);
     };
   }
-  if (std::holds_alternative<ModelSource>(dynamics.source))
-    return [options = mujoco::PlantOptions{model(dynamics), variant.parameters.values(), around}, folder = folder_] {
+  if (dynamics.model)
+    return [options = mujoco::PlantOptions{dynamics.model, variant.parameters.values(), around}] {
       return mujoco::make_plant(options);
     };
   if (const auto* function = std::get_if<FunctionSource>(&dynamics.source))
@@ -136,27 +156,9 @@ std::optional<scenario::Drawing> DynamicsMaker::drawing() const {
   for (const Variant& prior : robot_.priors) variants.push_back(&prior);
   for (const Variant* variant : variants) {
     const Dynamics& dynamics = robot_.dynamics_of(*variant);
-    if (std::holds_alternative<ModelSource>(dynamics.source)) return mujoco::make_drawing(model(dynamics));
+    if (dynamics.model) return mujoco::make_drawing(dynamics.model);
   }
   return {};
-}
-
-void DynamicsMaker::check_models(Robot& robot, const Task& task, files::FileViolations& violations) {
-  const DynamicsMaker maker(robot);
-  const auto own = static_cast<Index>(robot.states.size());
-  for (Dynamics& dynamics : robot.dynamics) {
-    if (!std::holds_alternative<ModelSource>(dynamics.source)) continue;
-    try {
-      dynamics.warnings = mujoco::warnings_of(maker.model(dynamics), task.action_bounds(), task.start_mean.head(own));
-    } catch (const InvalidInput& error) {
-      const std::string folder = maker.folder_->path().string() + "/";
-      for (std::string line : error.violations()) {
-        for (std::size_t at; (at = line.find(folder)) != std::string::npos;) line.erase(at, folder.size());
-        if (names_a_missing_file(line)) line += " (MuJoCo sees only files named in `files = […]`)";
-        violations.add(line_of(dynamics, line), fmt::format("[dynamics.{}]: {}", dynamics.name, line));
-      }
-    }
-  }
 }
 
 std::function<std::vector<std::string>()> DynamicsMaker::faults() const {

@@ -17,10 +17,15 @@
 
 namespace rehearse::robot_file {
 
+/// Compiles the robot's models, once for all that is made of it and of its copies. A violation for everything that they
+/// do not have; else the robot is told what to warn of.
+void compile_models(Robot& robot, const Task& task, files::FileViolations& violations);
+
 /// Simulators and plants of a robot's [dynamics.NAME].
 class DynamicsMaker {
  public:
-  /// Makes the folder where programs and models find their files; it is kept as long as anybody needs it.
+  /// Makes the folder where programs find their files; it is kept as long as anybody needs it. The robot's models are
+  /// compiled.
   explicit DynamicsMaker(const Robot& robot);
 
   std::shared_ptr<const system::Simulator> simulator(const Variant& variant, Index substeps);
@@ -29,9 +34,6 @@ class DynamicsMaker {
 
   /// The drawing of the model that the plant or the first prior is; empty: neither is a model.
   std::optional<scenario::Drawing> drawing() const;
-
-  /// A violation for everything that models do not have; else the robot is told what to warn of.
-  static void check_models(Robot& robot, const Task& task, files::FileViolations& violations);
 
   /// A function that reports the processes of these simulators that had to be replaced so far; null: there are none.
   std::function<std::vector<std::string>()> faults() const;
@@ -47,10 +49,9 @@ class DynamicsMaker {
   system::Program program(const Dynamics& dynamics) const;
   bool is_of_a_prior(const Dynamics& dynamics) const;
   bool is_of_the_plant(const Dynamics& dynamics) const;
-  mujoco::ModelDescription model(const Dynamics& dynamics) const;
 
   const Robot& robot_;
-  std::shared_ptr<const files::TemporaryFolder> folder_;  // null: no files are named
+  std::shared_ptr<const files::TemporaryFolder> folder_;  // null: no program has files
   std::vector<std::pair<std::string, std::shared_ptr<const system::ProgramSimulator>>> programs_;  // under their names
 };
 

@@ -85,6 +85,7 @@ struct Dynamics {
   std::vector<Parameter> parameters;  // all fixed, at their usual values
   std::variant<Equations, ProgramSource, ModelSource, FunctionSource> source;
   std::map<std::string, Index> lines;  // that violations of a model are about, by their beginnings
+  mujoco::SharedModel model;           // compiled by `compile_models`; null: it is none
   mujoco::Warnings warnings;           // of a model
 };
 

@@ -53,6 +53,8 @@ class Builder final : public scenario::ScenarioBuilder {
     robot_.options.fields_of_robot(v, plant_);
     v.require(robot_.plant_function.empty() || robot_.options.measurement_noise == 0,
               "measurement_noise: the plant is a function, which measures by itself, noise included");
+    v.require(has_equations() || robot_.options.substeps == scenario::OdeOptions().substeps,
+              "substeps: no dynamics are equations; a model of MuJoCo has substeps in the robot's file");
     if (!has_actuators_ || !robot_.has_plant) return;
     for (std::size_t a = 0; a < robot_.actions.size(); ++a) {
       Actuation& own = robot_.plant_actuation[a];
@@ -105,6 +107,11 @@ class Builder final : public scenario::ScenarioBuilder {
   }
 
  private:
+  bool has_equations() const {
+    return std::ranges::any_of(robot_.dynamics,
+                               [](const Dynamics& each) { return std::holds_alternative<Equations>(each.source); });
+  }
+
   /// Start and noise of the robot's own states.
   system::StartAndSensors around_robot(const Task& task, Index own) const {
     return {task.start_mean.head(own), task.start_std.head(own), robot_.options.measurement_std(own)};
@@ -138,6 +145,7 @@ class Builder final : public scenario::ScenarioBuilder {
     const bool said = robot_.has_plant && robot_.plant.dynamics == dynamics.name;  // of the plant
     if (!said) lines.insert(lines.end(), dynamics.warnings.misfits.begin(), dynamics.warnings.misfits.end());
     if (said) add_out_of_reach(prior, lines);
+    if (!said && robot_.has_plant) add_other_timestep(dynamics, lines);
     add_negative_masses(prior, lines);
     return lines;
   }
@@ -150,6 +158,18 @@ class Builder final : public scenario::ScenarioBuilder {
             (of_plant.value < learned.box.low || of_plant.value > learned.box.high))
           lines.push_back(fmt::format("{} is {:g} in the plant, outside of [{:g}, {:g}], in which it is learned",
                                       learned.name, of_plant.value, learned.box.low, learned.box.high));
+  }
+
+  /// A model whose timestep is not the plant's, on which contacts depend.
+  void add_other_timestep(const Dynamics& of_prior, std::vector<std::string>& lines) const {
+    const Dynamics& of_plant = robot_.dynamics_of(robot_.plant);
+    if (!of_plant.model || !of_prior.model) return;
+    const Index plant = mujoco::timesteps(of_plant.model), prior = mujoco::timesteps(of_prior.model);
+    if (plant != prior)
+      lines.push_back(
+          fmt::format("MuJoCo does {} timesteps a control step in the plant, {} in the prior, and contacts "
+                      "depend on them (substeps, or the timestep of the model)",
+                      plant, prior));
   }
 
   static void add_negative_masses(const Variant& prior, std::vector<std::string>& lines) {
@@ -197,18 +217,23 @@ class Builder final : public scenario::ScenarioBuilder {
 
 }  // namespace
 
-std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const std::string& source,
-                                                   const scenario::ReadFile& read_file, const Functions& functions) {
+scenario::MakeBuilder maker(std::string_view text, const std::string& source, const scenario::ReadFile& read_file,
+                            const Functions& functions) {
   Robot robot = read(text, source, read_file, functions);
   files::FileViolations violations(source);
   check_formulas(robot, violations);
   violations.throw_if_any();
   const Task task = make_task(robot);
-  DynamicsMaker::check_models(robot, task, violations);
+  compile_models(robot, task, violations);
   for (const std::string& line : task.violations()) violations.add(0, line);
   check_start(robot, task, violations);
   violations.throw_if_any();
-  return std::make_unique<Builder>(std::move(robot));
+  return [made = std::make_shared<const Builder>(std::move(robot))] { return std::make_unique<Builder>(*made); };
+}
+
+std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const std::string& source,
+                                                   const scenario::ReadFile& read_file, const Functions& functions) {
+  return maker(text, source, read_file, functions)();
 }
 
 }  // namespace rehearse::robot_file

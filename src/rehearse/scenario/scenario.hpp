@@ -81,4 +81,7 @@ class ScenarioBuilder {
   virtual Details details() const { return {}; }               // parts may be empty
 };
 
+/// Each call makes a new one, since its options can be set.
+using MakeBuilder = std::function<std::unique_ptr<ScenarioBuilder>()>;
+
 }  // namespace rehearse::scenario

@@ -17,6 +17,17 @@ TEST(Catalogue, FindsBuildersByName) {
   EXPECT_EQ(catalogue.learner_builders().size(), 2u);
 }
 
+TEST(Catalogue, MakesTheScenarioOfThatNameAlone) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios.insert(catalogue.scenarios.begin(),
+                             {"costly", []() -> std::unique_ptr<scenario::ScenarioBuilder> {
+                                throw std::logic_error("is made though nobody asks");
+                              }});
+  EXPECT_TRUE(catalogue.scenario("line"));
+  EXPECT_FALSE(catalogue.scenario("lien"));
+  EXPECT_NE(catalogue.why_missing("scenario", "lien").find("(known: costly, line)"), std::string::npos);
+}
+
 TEST(Catalogue, MakesNewBuildersForEveryCall) {
   const auto options = [](scenario::ScenarioBuilder& builder) {
     return list_fields([&](FieldVisitor& v) { builder.fields(v); });
@@ -48,8 +59,10 @@ TEST(Catalogue, NamesNoLearnersThatBeginWithAPolicyWhereThereAreNone) {
 
 TEST(Catalogue, SaysWhereTwoRobotsOfOneNameDiffer) {
   Catalogue catalogue;
-  catalogue.read_robot = [](std::string_view, const std::string&, const scenario::ReadFile&) {
-    return std::make_unique<fake::LineBuilder>();
+  int reads = 0;
+  catalogue.read_robot = [&reads](std::string_view, const std::string&, const scenario::ReadFile&) {
+    ++reads;
+    return [] { return std::make_unique<fake::LineBuilder>(); };
   };
   const Catalogue one = catalogue.with_robot("a = 1\nb = 2\n", "line.toml", fake::test_folder());
   const auto complaint_of = [&](const std::string& text) {
@@ -61,6 +74,8 @@ TEST(Catalogue, SaysWhereTwoRobotsOfOneNameDiffer) {
     return std::string("none");
   };
   EXPECT_EQ(complaint_of("a = 1\nb = 2\n"), "none");
+  EXPECT_TRUE(one.scenario("line") && one.scenario("line"));
+  EXPECT_EQ(reads, 1);
   const std::string both = "other.toml and line.toml are two robots of one name, 'line': ";
   EXPECT_EQ(complaint_of("a = 1\nb = 3\n"), both + "`b = 3` in the one, `b = 2` in the other");
   EXPECT_EQ(complaint_of("a = 1\n"), both + "`` in the one, `b = 2` in the other");
@@ -72,7 +87,7 @@ TEST(Catalogue, ATextThatIsTooLongForAPathIsNoFileOfARobot) {
   std::optional<std::string> bytes = "not asked";
   catalogue.read_robot = [&](std::string_view, const std::string&, const scenario::ReadFile& read_file) {
     bytes = read_file(std::string(5000, 'x'));
-    return std::make_unique<fake::LineBuilder>();
+    return [] { return std::make_unique<fake::LineBuilder>(); };
   };
   EXPECT_EQ(catalogue.with_robot("a robot", "line.toml", fake::test_folder()).robots.size(), 1u);
   EXPECT_FALSE(bytes.has_value());

@@ -234,7 +234,7 @@ class EchoBuilder : public learners::LearnerBuilder {
 
 inline Catalogue catalogue(Killer killer = {}) {
   Catalogue catalogue;
-  catalogue.scenarios = {[] { return std::make_unique<LineBuilder>(); }};
+  catalogue.scenarios = {{"line", [] { return std::make_unique<LineBuilder>(); }}};
   catalogue.learner_families = {[killer] {
     std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
     family.push_back(std::make_unique<EchoBuilder>(true, killer));
@@ -248,7 +248,7 @@ inline Catalogue catalogue(Killer killer = {}) {
 /// The same, with another way to make the plant of each run.
 inline Catalogue catalogue_with(const std::function<MakePlant(MakePlant)>& wrap) {
   Catalogue wrapped = catalogue();
-  wrapped.scenarios = {[wrap] { return std::make_unique<LineBuilder>(wrap); }};
+  wrapped.scenarios = {{"line", [wrap] { return std::make_unique<LineBuilder>(wrap); }}};
   return wrapped;
 }
 

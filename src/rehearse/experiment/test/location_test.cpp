@@ -21,6 +21,21 @@ TEST(Location, TheCauseIsTheFirstOptionThatIsWrongWithoutTheOthers) {
   EXPECT_EQ(found->line, 8);
 }
 
+TEST(Location, OptionsThatAViolationNamesAreTriedFirst) {
+  int made = 0;
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios = {{"line", [&made] {
+                            ++made;
+                            return std::make_unique<fake::LineBuilder>();
+                          }}};
+  const std::vector<FileOption> options = {
+      {"learner.search.step", "2", 1}, {"scenario.breaks", "true", 2}, {"scenario.noise", "-1", 3}};
+  const FileOption* found = cause(catalogue, spec_of("echo", "near"), options, "noise = -1, must be ≥ 0");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->line, 3);
+  EXPECT_EQ(made, 1) << "a builder for each spec that is resolved";
+}
+
 TEST(Location, WhatNoOptionBringsHasNoCauseAmongThem) {
   const std::string violation = "noise = -1, must be ≥ 0";
   const std::vector<FileOption> harmless = {{"noise", "0", 1}, {"noise", "-2", 2}};

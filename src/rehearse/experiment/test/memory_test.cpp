@@ -36,7 +36,7 @@ class LongBuilder final : public fake::LineBuilder {
 std::string said_of_long(Index horizon, const std::vector<std::pair<std::string, std::string>>& options = {}) {
   Catalogue catalogue = fake::catalogue();
   catalogue.read_robot = [horizon](std::string_view, const std::string&, const auto&) {
-    return std::make_unique<LongBuilder>(horizon);
+    return [horizon] { return std::make_unique<LongBuilder>(horizon); };
   };
   catalogue = catalogue.with_robot("", "long.toml", "");
   return not_enough_memory(

@@ -7,6 +7,7 @@
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/exported_policy.hpp"
+#include "rehearse/scenario/policy_options.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using fake::line_spec;
 
 PreparedEvaluation prepared_of(const EvaluationRequest& request) {
-  return prepare_evaluation(fake::catalogue(), read_run(fake::catalogue(), request.folder), request);
+  return prepare_evaluation(read_run(fake::catalogue(), request.folder), request);
 }
 
 /// A run of two trials, of a seed other than a plan's default.
@@ -49,7 +50,7 @@ TEST(PreparedEvaluation, MayHaveAnotherPolicyAndOtherSettings) {
   const auto& options = prepared.resolved.spec.options;
   EXPECT_TRUE(std::ranges::count(options, std::pair<std::string, std::string>("scenario.noise", "0.5")));
   EXPECT_DOUBLE_EQ(prepared.about().seconds, prepared.resolved.scenario.task.episode_s());
-  const auto all = robustness(fake::catalogue(), prepared, serial_evaluator());
+  const auto all = robustness(prepared, serial_evaluator());
   ASSERT_EQ(all.size(), kFactors.size());
   EXPECT_EQ(all.front().value, 2 * kFactors.front()) << "of what is set";
   EXPECT_EQ(all[2].summary.returns, summary_of(evaluate(prepared, serial_evaluator())).returns);
@@ -65,6 +66,69 @@ TEST(PreparedEvaluation, SaysWhatIsWrong) {
   EXPECT_EQ(said({.folder = folder, .policy = "[]", .policy_source = "it.json"}),
             "it.json is no policy that `export` wrote as JSON");
   EXPECT_NE(said({.folder = folder, .settings = {{"nois", "1"}}}).find("nois"), std::string::npos);
+  const PastRun run = read_run(fake::catalogue(), folder);
+  Violations before;
+  before.add("episodes = 0");
+  EXPECT_TRUE(fake::message_of<InvalidInput>([&] {
+                prepare_evaluation(run, {.folder = folder, .trial = 7}, before);
+              }).starts_with("episodes = 0\ntrial = 7"));
+}
+
+TEST(PreparedEvaluation, SettingsThatChangeNoEpisodeAreRefused) {
+  const std::filesystem::path folder = line_folder();
+  const std::string known = "; what can be set: plant.gain, noise, breaks, evaluations";
+  const auto said = [&](const learners::OptionTexts& settings) {
+    return fake::message_of<InvalidInput>([&] { prepared_of({.folder = folder, .settings = settings}); });
+  };
+  const std::string of_learner = " changes no episode: it is an option of the learner" + known;
+  EXPECT_EQ(said({{"prior.gain", "0.7"}, {"search.step", "1"}, {"learner.search.step", "1"}, {"told_by", "measured"}}),
+            "prior.gain changes no episode: no prior plays the robot" + known + "\nsearch.step" + of_learner +
+                "\nlearner.search.step" + of_learner + "\ntold_by changes no episode: it is an option of learning" +
+                known);
+  PastRun run = read_run(fake::catalogue(), folder);
+  run.resolved.scenario.make_plant = nullptr;  // so that the prior plays
+  const PreparedEvaluation prepared =
+      prepare_evaluation(run, {.folder = folder, .settings = {{"scenario.noise", "0"}, {"prior.gain", "0.7"}}});
+  EXPECT_NE(prepared.about().settings.find("scenario.noise=0 prior.gain=0.7"), std::string::npos);
+  EXPECT_EQ(prepared.resolved.prior->space.values()(0), 0.7);
+}
+
+TEST(PreparedEvaluation, OptionsOfThePolicyAreRefused) {
+  struct WithPolicy final : fake::LineBuilder {
+    void fields(FieldVisitor& v) override {
+      LineBuilder::fields(v);
+      options.fields(v);
+    }
+    scenario::PolicyOptions options;
+  };
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios = {{"line", [] { return std::make_unique<WithPolicy>(); }}};
+  const std::filesystem::path folder = fake::test_folder() / "run";
+  start_run(catalogue, line_spec(1), folder, {});
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] {
+              prepare_evaluation(read_run(catalogue, folder), {.folder = folder, .settings = {{"hidden", "3"}}});
+            }),
+            "hidden changes no episode: it is an option of the policy, which stays as it was learned; what can be set: "
+            "plant.gain, noise, breaks, evaluations");
+}
+
+TEST(PreparedEvaluation, TheRobotsFileIsReadOnceForAnEvaluation) {
+  int reads = 0;
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios.clear();
+  catalogue.read_robot = [&reads](std::string_view, const std::string&, const auto&) {
+    ++reads;
+    return [] { return std::make_unique<fake::LineBuilder>(); };
+  };
+  const std::filesystem::path folder = fake::test_folder() / "run";
+  const Catalogue with_line = catalogue.with_robot("a line", "line.toml", "");
+  start_run(with_line, line_spec(1), folder, {});
+  EXPECT_EQ(reads, 1);
+  const PreparedEvaluation prepared = prepare_evaluation(read_run(catalogue, folder), {.folder = folder});
+  robustness(prepared, serial_evaluator());
+  EXPECT_EQ(reads, 2);
+  read_run(with_line, folder);
+  EXPECT_EQ(reads, 2) << "it was read before";
 }
 
 }  // namespace

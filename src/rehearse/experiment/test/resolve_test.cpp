@@ -75,7 +75,7 @@ struct TuningBuilder final : fake::EchoBuilder {
 
 TEST(Spec, WarnsOfWhatIsHardlyMeant) {
   Catalogue catalogue = fake::catalogue();
-  catalogue.scenarios = {[] { return std::make_unique<StiffBuilder>(); }};
+  catalogue.scenarios = {{"line", [] { return std::make_unique<StiffBuilder>(); }}};
   catalogue.learner_families.emplace_back([] {
     std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
     family.push_back(std::make_unique<TuningBuilder>());
@@ -91,7 +91,7 @@ TEST(Spec, WarnsOfWhatIsHardlyMeant) {
   EXPECT_EQ(warnings("echo", "far"), Lines{});
   EXPECT_EQ(warnings("echo", "oracle"), Lines{"the oracle is not all of the plant: v is late"});
   EXPECT_EQ(warnings("tuning", "oracle"), Lines{"the oracle is not all of the plant: v is late"});
-  catalogue.scenarios = {[] { return std::make_unique<FallingBuilder>(); }};
+  catalogue.scenarios = {{"line", [] { return std::make_unique<FallingBuilder>(); }}};
   EXPECT_EQ(warnings("tuning", "near"), Lines{"tuning: it ignores `ended`"});
   EXPECT_EQ(warnings("echo", "near"), Lines{});
 }
@@ -190,7 +190,7 @@ class Unsolvable final : public fake::LineBuilder {
 
 TEST(Spec, UntilSolvedNeedsATaskThatSaysWhatThatIs) {
   Catalogue catalogue = fake::catalogue();
-  catalogue.scenarios = {[] { return std::make_unique<Unsolvable>(); }};
+  catalogue.scenarios = {{"line", [] { return std::make_unique<Unsolvable>(); }}};
   Spec spec = spec_of("echo", "");
   spec.until_solved = true;
   EXPECT_EQ(fake::message_of<InvalidInput>([&] { resolve(catalogue, spec); }),

@@ -96,19 +96,17 @@ TEST(TrialRecord, OfALearnerWithoutPriorHasNoModelColumns) {
 TEST(TrialRecord, AnEpisodeThatFailsIsSaidInTheNotes) {
   const fs::path folder = fake::test_folder();
   Catalogue catalogue = fake::catalogue();
-  catalogue.scenarios = {[] {
-    /// The line, whose reward is no number.
-    class Faulty final : public fake::LineBuilder {
-     public:
-      scenario::Scenario build() const override {
-        scenario::Scenario scenario = LineBuilder::build();
-        scenario.task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&,
-                                  VectorView rewards) { rewards.setConstant(std::nan("")); };
-        return scenario;
-      }
-    };
-    return std::make_unique<Faulty>();
-  }};
+  /// The line, whose reward is no number.
+  class Faulty final : public fake::LineBuilder {
+   public:
+    scenario::Scenario build() const override {
+      scenario::Scenario scenario = LineBuilder::build();
+      scenario.task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&,
+                                VectorView rewards) { rewards.setConstant(std::nan("")); };
+      return scenario;
+    }
+  };
+  catalogue.scenarios = {{"line", [] { return std::make_unique<Faulty>(); }}};
   start_run(catalogue, line_spec(2), folder / "run", {});
   const auto notes = lines_of(folder / "run/notes.csv");
   for (const std::string trial : {"1", "2"})

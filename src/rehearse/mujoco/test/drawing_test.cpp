@@ -15,8 +15,8 @@ using scenario::SolidDrawing;
 using scenario::Sphere;
 
 SolidDrawing shapes() {
-  return make_drawing(
-      {.path = data_file("shapes.xml"), .dt_s = 0.002, .states = {{"x", State::Kind::position, {{"slide"}}, 0}}});
+  return make_drawing(compile(
+      {.path = data_file("shapes.xml"), .dt_s = 0.002, .states = {{"x", State::Kind::position, {{"slide"}}, 0}}}));
 }
 
 const SolidDrawing::Body& body_of(const SolidDrawing& drawing, const std::string& name) {
@@ -61,14 +61,14 @@ TEST(ModelDrawing, TheBoxAroundAMeshHoldsIt) {
 }
 
 TEST(ModelDrawing, AMeshIsReadFromItsFile) {
-  const SolidDrawing drawing = make_drawing({.path = data_file("wedge.xml"), .dt_s = 0.002});
+  const SolidDrawing drawing = make_drawing(compile({.path = data_file("wedge.xml"), .dt_s = 0.002}));
   const Eigen::Vector3d size = std::get<Box>(body_of(drawing, "wedge").shape).size_m;
   EXPECT_GE(size.maxCoeff(), 3);
   EXPECT_EQ(drawing.floor_m, std::nullopt);
 }
 
 TEST(ModelDrawing, AnglesOfStatesTurnLinks) {
-  const auto poses = make_drawing(acrobot_model()).poses(Vector{{M_PI / 2, 0, 0, 0}});
+  const auto poses = make_drawing(compile(acrobot_model())).poses(Vector{{M_PI / 2, 0, 0, 0}});
   EXPECT_NEAR((poses[0].position - Eigen::Vector3d(0.5, 0, 0)).norm(), 0, 1e-12);
   EXPECT_NEAR((poses[1].position - Eigen::Vector3d(1, 0, -0.5)).norm(), 0, 1e-12);
 }

@@ -121,7 +121,7 @@ TEST(Parameters, WrongOnesAreAllNamed) {
                       {"b", "", 1, {{"body", "arm", "mass", -1, Apply::value, NAN}, {"body", "arm", "mas"}}},
                       {"c", "", 1, {{"body", "arm", "mass"}}},
                       {"c", "", 1, {{"body", "arm", "inertia"}}}};
-  EXPECT_EQ(complaint_of([&] { make_simulator(model, {}); }),
+  EXPECT_EQ(complaint_of([&] { compile(model); }),
             "parameter 'a' has no targets, must have one\n"
             "parameter 'b', body 'arm' mass: factor = nan, must be finite\n"
             "parameter 'b': body has no field 'mas', did you mean 'mass'? (known: inertia, ipos, mass, pos)\n"
@@ -129,11 +129,9 @@ TEST(Parameters, WrongOnesAreAllNamed) {
             "'b' and 'c' both set the mass of the same body, must be one");
   const Target twice{"body", "arm", "mass", -1, Apply::scale};
   model.parameters = {{"d", "", 1, {twice, twice}}};
-  EXPECT_EQ(complaint_of([&] { make_simulator(model, {}); }),
-            "'d' scales the mass of the same body twice, must be once");
+  EXPECT_EQ(complaint_of([&] { compile(model); }), "'d' scales the mass of the same body twice, must be once");
   model.parameters = {{"d", "", 1, {twice, {"body", "arm", "mass"}}}};
-  EXPECT_EQ(complaint_of([&] { make_simulator(model, {}); }),
-            "'d' sets and scales the mass of the same body, must do one");
+  EXPECT_EQ(complaint_of([&] { compile(model); }), "'d' sets and scales the mass of the same body, must do one");
 }
 
 }  // namespace

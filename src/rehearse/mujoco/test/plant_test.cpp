@@ -9,7 +9,7 @@ namespace rehearse::mujoco {
 namespace {
 
 PlantOptions acrobot_plant(double noise) {
-  return {.model = acrobot_model(),
+  return {.model = compile(acrobot_model()),
           .phi = Vector(),
           .around = {Vector{{3, 3, 0, 0}}, Vector::Constant(4, 0.1), Vector::Constant(4, noise)}};
 }
@@ -37,10 +37,10 @@ TEST(ModelPlant, DrawsAndMovesAsAnEquationDoes) {
 }
 
 TEST(ModelPlant, ReadOnlyStatesFollowFromTheStart) {
-  PlantOptions options{
-      .model = pendulum_model(), .phi = Vector(), .around = {Vector{{0.5, 0, 9}}, Vector::Zero(3), Vector()}};
-  options.model.states.push_back({"tip x", State::Kind::site, {{"tip"}}, 0});
-  const auto plant = make_plant(options);
+  ModelDescription seen = pendulum_model();
+  seen.states.push_back({"tip x", State::Kind::site, {{"tip"}}, 0});
+  const auto plant =
+      make_plant({.model = compile(seen), .phi = Vector(), .around = {Vector{{0.5, 0, 9}}, Vector::Zero(3), Vector()}});
   Rng rng({.seed = 5});
   EXPECT_NEAR(plant->reset(rng)(2), std::sin(0.5), 1e-12);
   const Vector x = plant->step(Vector{{1}});
@@ -65,7 +65,7 @@ TEST(ModelPlant, ThrowsWhereItDiverges) {
 
 TEST(ModelPlant, WrongSizesAreAllNamed) {
   EXPECT_EQ(complaint_of([] {
-              make_plant({.model = acrobot_model(),
+              make_plant({.model = compile(acrobot_model()),
                           .phi = Vector{{1}},
                           .around = {Vector::Zero(3), Vector::Zero(2), Vector::Zero(1)}});
             }),

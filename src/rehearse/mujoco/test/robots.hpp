@@ -70,11 +70,22 @@ inline Vector by_equation(const system::Ode& equation, const Vector& x, const Ve
   return system::integrate_adaptive(equation, x, u, Vector(), kControlStep);
 }
 
+/// The description's parameters, fixed where they start.
+inline ParameterSpace parameter_space(const ModelDescription& description) {
+  std::vector<Parameter> parameters;
+  for (const ModelParameter& each : description.parameters)
+    parameters.push_back(Parameter::fixed(each.name, each.value, each.unit));
+  return ParameterSpace(parameters);
+}
+
+inline std::shared_ptr<const system::Simulator> simulator_of(const ModelDescription& model) {
+  return make_simulator(compile(model), parameter_space(model));
+}
+
 /// The state that a model reaches in a control step, its parameters where they start.
 inline Vector by_model(const ModelDescription& model, const Vector& x, const Vector& u) {
-  const ParameterSpace parameters = parameter_space(model);
   Matrix dX(1, x.size());
-  make_simulator(model, parameters)->change(x.transpose(), u.transpose(), parameters.values(), dX);
+  simulator_of(model)->change(x.transpose(), u.transpose(), parameter_space(model).values(), dX);
   return x + dX.row(0).transpose();
 }
 

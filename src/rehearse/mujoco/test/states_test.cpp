@@ -13,7 +13,7 @@ std::string states_complaint(std::vector<State> states, const char* file = "acro
     ModelDescription model = acrobot_model(file);
     model.states = std::move(states);
     if (std::string(file) != "acrobot.xml") model.actions.clear();
-    make_simulator(model, {});
+    compile(model);
   });
 }
 

@@ -8,21 +8,18 @@
 namespace rehearse::mujoco {
 namespace {
 
-[[noreturn]] void refuse(const ModelDescription& description) {
-  throw InvalidInput(description.path + " is a model of MuJoCo, which was not found when this program was built");
+[[noreturn]] void refuse(const std::string& path = "this") {
+  throw InvalidInput(path + " is a model of MuJoCo, which was not found when this program was built");
 }
 
 }  // namespace
 
 std::vector<std::string> field_names(const std::string&) { return {}; }
-std::shared_ptr<const system::Simulator> make_simulator(const ModelDescription& description, ParameterSpace) {
-  refuse(description);
-}
-ParameterSpace parameter_space(const ModelDescription& description) { refuse(description); }
-Warnings warnings_of(const ModelDescription& description, const std::vector<Interval>&, const Vector&) {
-  refuse(description);
-}
-std::unique_ptr<system::Plant> make_plant(const PlantOptions& options) { refuse(options.model); }
-scenario::SolidDrawing make_drawing(const ModelDescription& description) { refuse(description); }
+SharedModel compile(const ModelDescription& description) { refuse(description.path); }
+Index timesteps(const SharedModel&) { refuse(); }
+std::shared_ptr<const system::Simulator> make_simulator(SharedModel, ParameterSpace) { refuse(); }
+Warnings warnings_of(const SharedModel&, const std::vector<Interval>&, const Vector&) { refuse(); }
+std::unique_ptr<system::Plant> make_plant(const PlantOptions&) { refuse(); }
+scenario::SolidDrawing make_drawing(const SharedModel&) { refuse(); }
 
 }  // namespace rehearse::mujoco

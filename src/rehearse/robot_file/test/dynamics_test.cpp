@@ -1,5 +1,6 @@
 #include "rehearse/robot_file/dynamics.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -126,6 +127,42 @@ TEST(Dynamics, PartsOfAModelThatNoStateGivesAreSaid) {
   EXPECT_EQ(scenario.priors[0].lacks, lines);
   EXPECT_TRUE(scenario.priors[1].lacks.empty()) << "equations";
   EXPECT_EQ(scenario.oracle_lacks, lines);
+}
+
+TEST(Dynamics, ATimestepThatIsNotThePlantsIsSaid) {
+  const auto folder = [](const std::string&) -> std::optional<std::string> { return kTwoRods; };
+  const std::string rods = "[dynamics.rods]\nmodel = \"rods.xml\"\nstate.angle = \"hinge\"\naction.u = \"motor\"\n";
+  std::string coarse = rods;
+  coarse.replace(coarse.find("rods]"), 5, "coarse]").append("substeps = 4\n");
+  const std::string text =
+      example::with("[plant]", rods + coarse + "[plant]\ndynamics = \"rods\"\n[prior.coarse]\ndynamics = \"coarse\"");
+  const scenario::Scenario scenario = builder(text, "swing.toml", folder)->build();
+  EXPECT_EQ(scenario.priors.front().lacks.back(),
+            "MuJoCo does 10 timesteps a control step in the plant, 4 in the prior, and contacts depend on them "
+            "(substeps, or the timestep of the model)");
+}
+
+TEST(Dynamics, AModelIsCompiledOnceForAllThatIsMadeOfIt) {
+  const auto folder = [](const std::string&) -> std::optional<std::string> { return kTwoRods; };
+  const scenario::MakeBuilder make = maker(with_rods(), "swing.toml", folder);
+  const char* const before = std::getenv("TMPDIR");
+  const std::string usual = before ? before : "";
+  ::setenv("TMPDIR", "/nowhere", 1);  // another time, the compiler would not find its file
+  EXPECT_THROW(files::TemporaryFolder(), std::exception);
+  std::vector<Vector> steps;
+  for (int i = 0; i < 2; ++i) {
+    const scenario::Scenario scenario = make()->build();
+    EXPECT_TRUE(scenario.drawing);
+    for (const auto& simulator : {scenario.oracle, scenario.priors.front().simulator}) {
+      Matrix dX(1, 2);
+      simulator->change(Matrix{{0, 3}}, Matrix{{1}}, simulator->parameters().values(), dX);
+      steps.emplace_back(dX.row(0));
+    }
+    Rng rng({.seed = 1});
+    EXPECT_TRUE(scenario.make_plant()->reset(rng).allFinite());
+  }
+  for (const Vector& step : steps) EXPECT_EQ(step, steps.front());
+  usual.empty() ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", usual.c_str(), 1);
 }
 
 TEST(Dynamics, AFileThatAModelIncludesMustBeNamed) {

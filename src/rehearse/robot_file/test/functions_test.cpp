@@ -121,6 +121,17 @@ TEST(RobotFunctions, ADynamicsMayPlayTheRobot) {
   EXPECT_NE(scenario.oracle, nullptr);
 }
 
+TEST(RobotFunctions, HaveNoSubsteps) {
+  const auto violations = [](scenario::ScenarioBuilder& of) {
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { of.fields(v); }, "substeps", "40"));
+    return field_violations([&](FieldVisitor& v) { of.fields(v); });
+  };
+  EXPECT_EQ(violations(*builder(kFile, "pushed.toml", example::no_files, functions())),
+            std::vector<std::string>{
+                "substeps: no dynamics are equations; a model of MuJoCo has substeps in the robot's file"});
+  EXPECT_TRUE(violations(*builder(example::kSwing, "swing.toml", example::no_files)).empty());
+}
+
 TEST(RobotFunctions, ThoseOfAnotherProgramAreMissed) {
   const std::string lines = complaint(kFile, {});
   EXPECT_NE(lines.find("'robot' is a function"), std::string::npos) << lines;
