@@ -69,6 +69,17 @@ def more_than(heading, file, variant, unsolved):
     return heading, text
 
 
+def times_as_much(heading, file):
+    """The return of the last trial of this file's run with the same variant and seed, as a multiple of this run's."""
+    others = {(run.variant, run.seed): last(run) for run in read_runs(file)}
+
+    def text(runs):
+        other = others.get((runs[0].variant, runs[0].seed))
+        return NOT_RUN if other is None else NONE if last(runs[0]) <= 0 else number(other / last(runs[0]), 2)
+
+    return heading, text
+
+
 def first_text(trial):
     """Between a trial and none there is none."""
     return f"{trial:g}" if math.isfinite(trial) else NONE
