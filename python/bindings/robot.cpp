@@ -5,6 +5,7 @@
 
 #include "apps/catalogue.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/robot_file.hpp"
 
@@ -237,6 +238,9 @@ void add_robot(py::module_& module) {
       .def("add_plant", &Robot::add_plant)
       .def("check", &Robot::check)
       .def("about", &Robot::about);
+  module.def(
+      "folder_of_files", [](const std::string& file) { return experiment::folder_of_files(file).string(); },
+      py::arg("robot_file"));
 }
 
 }  // namespace rehearse::python

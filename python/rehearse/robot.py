@@ -10,7 +10,6 @@ import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
@@ -121,7 +120,7 @@ class Robot:
         robot.text = read_text(path)
         robot._functions = []
         robot.one_at_a_time = False
-        robot._source, robot._folder = os.fspath(path), os.path.abspath(Path(path).parent)
+        robot._source, robot._folder = os.fspath(path), _core.folder_of_files(os.path.abspath(path))
         about = robot._core.about()
         robot.name, robot._dt_s = about["name"], about["dt_s"]
         if plant is not None:

@@ -158,6 +158,6 @@ def _cells(column: Array, missing: Array, rows: int) -> list[str]:
 def _texts(column: Any) -> list[str]:
     """[]: it is one thing, such as a text or a number, or it is images."""
     one = isinstance(column, (str, bytes, Mapping)) or not isinstance(column, Collection)
-    if one or getattr(column, "ndim", 1) not in (1, 2):
+    if one or getattr(column, "ndim", 1) not in (1, 2) or any(getattr(value, "ndim", 0) > 1 for value in column):
         return []
     return ["" if value is None else str(value) for value in column]

@@ -198,3 +198,14 @@ def test_two_numbers_in_a_list_are_choices():
     with pytest.warns(UserWarning, match=r"light: tune of mass = \[0.2, 5\]: a list is two choices; bounds are a tuple"):
         with pytest.raises(rehearse.InvalidInput, match="must be one of 0.2, 5"):
             cart(priors={"light": rehearse.Model(change, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": [0.2, 5]})})
+
+
+def test_the_robot_of_a_run_finds_its_files(tmp_path):
+    programs = pathlib.Path(__file__).parents[2] / "examples/programs"
+    (tmp_path / "robot").mkdir()
+    shutil.copy(programs / "furuta.py", tmp_path / "robot")
+    shutil.copy(programs / "furuta.toml", tmp_path / "robot.toml")
+    with pytest.raises(rehearse.InvalidInput, match="furuta.py"):
+        rehearse.Robot.from_file(tmp_path / "robot.toml")
+    (tmp_path / "spec.toml").touch()  # so it is a run's
+    assert rehearse.Robot.from_file(tmp_path / "robot.toml").name.startswith("furuta")

@@ -46,11 +46,6 @@ void for_all_runs(const Catalogue& catalogue, Check check) {
     }
 }
 
-TEST(Robots, HaveTheNamesOfTheirFolders) {
-  for (const experiment::NamedScenario& robot : apps::catalogue().scenarios)
-    EXPECT_EQ(robot.make()->name(), robot.name);
-}
-
 std::map<std::string, std::string> by_key(const std::vector<FileOption>& options) {
   std::map<std::string, std::string> texts;
   for (const FileOption& option : options) texts[option.key] = option.text;

@@ -259,6 +259,13 @@ export function stepsOf(prediction: Columns): number {
   return end < 0 ? Infinity : end
 }
 
+/** The episode with the predicted robot ending where its prediction does. */
+export function withEnds(episode: Episode): Episode {
+  const { motion, prediction } = episode
+  if (!motion?.predicted || !prediction) return episode
+  return { ...episode, motion: { ...motion, predicted: motion.predicted.slice(0, stepsOf(prediction)) } }
+}
+
 /** Position of the largest number, the first of equals; 0 without any. */
 export function indexOfMax(cells: Cell[]): number {
   const numbers = cells.map((value) => value ?? -Infinity)

@@ -1,6 +1,6 @@
 // One trial: the robot moving, and every state with its prediction, under one time slider.
 import { moveCursor } from './chart'
-import { column, isSolid, present, stepsOf, type Episode, type Motion } from './data'
+import { column, isSolid, present, stepsOf, withEnds, type Episode, type Motion } from './data'
 import { h } from './dom'
 import { figure, type Figure } from './figure'
 import { number } from './format'
@@ -22,7 +22,8 @@ const SPEEDS = [0.25, 0.5, 1, 2]
 
 /** describe: what is said of a trial ("Return 21.9, solved."). */
 export function player(episodes: Episode[], start: Episode, describe: (trial: number) => string): HTMLElement {
-  return new Player(episodes, start, describe).element
+  const ended = episodes.map(withEnds)
+  return new Player(ended, ended[episodes.indexOf(start)] ?? start, describe).element
 }
 
 class Player {

@@ -35,14 +35,17 @@ struct GroupAt {
     const bool under_way = run.state == RunState::unfinished && run.done() > 0;
     return run.row_of(until_solved && under_way ? std::min(trial, run.done()) : trial);
   }
+
+  /// Those that failed count as not solved.
+  bool counts(const RunOutcome& run) const { return row_of(run) || run.state == RunState::failed; }
 };
 
-/// Counts the runs for which `solved` holds among those that count at the trial, or failed before it.
+/// Counts the runs for which `solved` holds among those that count.
 template <class Solved>
 std::optional<statistics::Rate> success_rate(const GroupAt& at, Solved solved) {
   Index count = 0, of = 0;
   for (const RunOutcome* run : at.runs) {
-    if (!at.row_of(*run) && run->state != RunState::failed) continue;
+    if (!at.counts(*run)) continue;
     if (std::any_of(run->solved.begin(), run->solved.end(), [](const auto& s) { return !s; })) return std::nullopt;
     ++of;
     count += solved(*run);

@@ -145,10 +145,11 @@ TellResult already_told(const Resolved& resolved, const History& history, const 
 /// Makes the run what it was before logs, unless they are in it on the disk. kept: `keep_tell` came to its end.
 void bring_back(const Reopened& reopened, const History& before, bool kept) {
   const RunFolder& folder = reopened.folder();
-  if (folder.load().logs.size() != before.logs.size()) return;
+  const History on_disk = folder.load();
+  if (on_disk.logs.size() != before.logs.size()) return;
   if (kept) forget_tell(folder);
   if (!before.asked) return;
-  folder.write_checkpoint(before);
+  if (!on_disk.asked) folder.write_checkpoint(before);
   update_next_files(folder, reopened.resolved(), before);
 }
 

@@ -37,6 +37,11 @@ scenario::ReadFile files_in(const std::filesystem::path& folder) {
   };
 }
 
+NamedScenario named(scenario::MakeBuilder make) {
+  std::string name = make()->name();
+  return {std::move(name), std::move(make)};
+}
+
 std::vector<std::unique_ptr<scenario::ScenarioBuilder>> Catalogue::scenario_builders() const {
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> builders;
   for (const NamedScenario& each : scenarios) builders.push_back(each.make());

@@ -40,6 +40,8 @@ struct NamedScenario {
   scenario::MakeBuilder make;
 };
 
+NamedScenario named(scenario::MakeBuilder make);
+
 /// Reads a robot's file, once for all of its builders.
 using ReadRobot = std::function<scenario::MakeBuilder(std::string_view text, const std::string& source,
                                                       const scenario::ReadFile& read_file)>;

@@ -12,8 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kSpecFile = "spec.toml";
-
 /// False also where the folder itself cannot be read: who opens it says why.
 bool is_there(const fs::path& file) {
   std::error_code none;
@@ -31,11 +29,15 @@ void require_name_of_run(const std::string& given, const fs::path& folder) {
 
 }  // namespace
 
+fs::path folder_of_files(const fs::path& robot_file) {
+  const fs::path folder = robot_file.parent_path();
+  const bool is_kept =
+      robot_file.filename() == kRobotFile && is_there(folder / kSpecFile) && is_there(folder / kRobotFolder);
+  return is_kept ? folder / kRobotFolder : folder;
+}
+
 Catalogue with_robot_of_file(const Catalogue& catalogue, const fs::path& file, const std::string& source) {
-  const fs::path folder = file.parent_path();
-  const bool is_kept = file.filename() == kRobotFile && is_there(folder / kSpecFile) && is_there(folder / kRobotFolder);
-  return catalogue.with_robot(files::read_file(file, files::Links::follow), source,
-                              is_kept ? folder / kRobotFolder : folder);
+  return catalogue.with_robot(files::read_file(file, files::Links::follow), source, folder_of_files(file));
 }
 
 Catalogue with_robot_of_run(const Catalogue& catalogue, const fs::path& folder) {

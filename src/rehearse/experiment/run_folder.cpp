@@ -8,6 +8,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/abandoned.hpp"
 #include "rehearse/experiment/checkpoint.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kSpec = "spec.toml", *kCheckpoint = "checkpoint", *kDone = "done";
+constexpr const char *kCheckpoint = "checkpoint", *kDone = "done";
 
 fs::path trial_file(const fs::path& folder, Index trial) { return folder / fmt::format("trial-{:03}.csv", trial); }
 
@@ -65,7 +66,7 @@ RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comme
   files::NewFolder folder(path);
   for (const char* inner : kFirstFolders) fs::create_directory(folder.hidden() / inner);
   files::FolderLock lock(folder.hidden());
-  files::write_file(folder.hidden() / kSpec, text, files::Durability::power);
+  files::write_file(folder.hidden() / kSpecFile, text, files::Durability::power);
   if (robot) keep_robot(*robot, folder.hidden());
   files::write_file(folder.hidden() / kCheckpoint, to_checkpoint({}, fingerprint(spec)), files::Durability::power);
   if (!folder.appear()) throw InvalidInput(already_exists(path));
@@ -75,7 +76,7 @@ RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comme
 namespace {
 
 Spec spec_of(const fs::path& folder) {
-  const fs::path spec = folder / kSpec;
+  const fs::path spec = folder / kSpecFile;
   return from_toml(files::read_file(spec), spec.string());
 }
 
@@ -91,7 +92,7 @@ History history_of(const fs::path& folder, std::uint64_t fingerprint) {
 fs::path checked_run_folder(const fs::path& given) {
   fs::path path = files::without_slash(given);
   if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{} is not a folder", path.string()));
-  for (const char* file : {kSpec, kCheckpoint})
+  for (const char* file : {kSpecFile, kCheckpoint})
     if (!fs::exists(path / file))
       throw InvalidInput(fmt::format("{} is not a run folder: it has no {}", path.string(), file));
   return path;
@@ -129,7 +130,7 @@ void RunFolder::change_end(Until until, const Comments& comments) {
   changed.until_solved = until.solved;
   const std::string text = to_toml(changed, comments);
   const bool told = fs::exists(path_ / kToldFolder);
-  files::write_file(path_ / kSpec, told ? of_told_run(text) : text, files::Durability::power);
+  files::write_file(path_ / kSpecFile, told ? of_told_run(text) : text, files::Durability::power);
   spec_ = std::move(changed);
   mark_unfinished();
 }
@@ -143,7 +144,7 @@ void RunFolder::write_checkpoint(const History& history) const {
 }
 
 void RunFolder::write_tables(const History& history, const Resolved& resolved) const {
-  if (has_told_files(history)) say_that_told(path_ / kSpec);
+  if (has_told_files(history)) say_that_told(path_ / kSpecFile);
   files::write_file(path_ / "trials.csv",
                     trials_csv(history.trials, tunable_names(resolved.prior), resolved.scenario.evaluations > 0));
   files::write_file(path_ / "timings.csv", timings_csv(history.trials));

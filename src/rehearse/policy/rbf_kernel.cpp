@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rehearse/policy/rbf_kernel.cpp"
@@ -134,7 +135,7 @@ HWY_INLINE bool load(const double* from, Index stride, Index columns, Index row,
   return changed;
 }
 
-/// A thread's block, and whether it holds the networks of its θ.
+/// A thread's block, and what it holds.
 struct Memory {
   void reserve(const RbfShape& wanted, Index lanes) {
     const Index needed = Block::vectors(wanted) * lanes;
@@ -143,13 +144,14 @@ struct Memory {
       block = hwy::AllocateAligned<double>(static_cast<std::size_t>(needed)), allocated = needed;
       std::fill_n(block.get(), needed, 0.0);
     }
-    shape = wanted, prepared = false;
+    shape = wanted;
+    prepared.assign(static_cast<std::size_t>(wanted.actions), false);
   }
 
   hwy::AlignedFreeUniquePtr<double[]> block;
   Index allocated = 0;
   RbfShape shape{};
-  bool prepared = false;
+  std::vector<char> prepared;  // of each action: its network is that of θ
 };
 
 void RbfKernel(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride,
@@ -157,19 +159,19 @@ void RbfKernel(const RbfShape& shape, const double* theta, Index theta_stride, c
   thread_local Memory memory;
   const auto lanes = static_cast<Index>(hn::Lanes(D()));
   memory.reserve(shape, lanes);
-  const auto block = [&](Index action) { return Block(shape, action, memory.block.get(), lanes); };
-  const Block shared = block(0);
-  for (Index row = 0; row < rows; row += lanes) {
-    const Index count = rows - row < lanes ? rows - row : lanes;
-    if (load(theta, theta_stride, shape.parameters(), row, count, shared.theta)) memory.prepared = false;
-    load(in, in_stride, shape.inputs, row, count, shared.x);
-    for (Index a = 0; a < shape.actions; ++a) {
-      const Block of_action = block(a);
-      if (!memory.prepared) prepare(shape, a, of_action);
-      shared.k.set(0, act(shape, of_action));
-      for (Index i = 0; i < count; ++i) out[a * out_stride + row + i] = shared.k.data[i];
+  // Actions are outside, so that the cache keeps the network that all rows ask.
+  for (Index a = 0; a < shape.actions; ++a) {
+    const Block of_action(shape, a, memory.block.get(), lanes);
+    char& prepared = memory.prepared[static_cast<std::size_t>(a)];
+    for (Index row = 0; row < rows; row += lanes) {
+      const Index count = rows - row < lanes ? rows - row : lanes;
+      if (load(theta, theta_stride, shape.parameters(), row, count, of_action.theta))
+        std::fill(memory.prepared.begin(), memory.prepared.end(), false);
+      if (!prepared) prepare(shape, a, of_action), prepared = true;
+      load(in, in_stride, shape.inputs, row, count, of_action.x);
+      of_action.k.set(0, act(shape, of_action));
+      for (Index i = 0; i < count; ++i) out[a * out_stride + row + i] = of_action.k.data[i];
     }
-    memory.prepared = true;
   }
 }
 

@@ -11,8 +11,11 @@ namespace {
 std::vector<std::string> details_of_reward(const RewardFormulas& reward) {
   std::vector<std::string> lines, distances;
   for (const Formula& distance : reward.distance) distances.push_back(distance.text);
+  const bool ignored = distances.empty() && reward.width != RewardFormulas().width;
   if (distances.empty())
-    lines.push_back("formula: " + reward.formula.text);
+    lines.push_back(
+        fmt::format("formula: {}{}", reward.formula.text,
+                    ignored ? fmt::format("; width {:g} is of distances, so it has no effect", reward.width) : ""));
   else
     lines.push_back(fmt::format("distance: {}; width {:g}", fmt::join(distances, ", "), reward.width));
   if (!reward.cost.empty()) lines.push_back("cost: " + reward.cost.text);

@@ -111,7 +111,7 @@ class Reader {
       Table table(*part, "[reward]", violations_);
       robot_.reward.distance = table.formulas("distance");
       robot_.reward.formula = table.formula("formula");
-      const bool has_width = table.number("width", robot_.reward.width, above(0));
+      table.number("width", robot_.reward.width, above(0));
       table.number("floor", robot_.reward.floor);
       robot_.reward.cost = table.formula("cost");
       robot_.reward.episode = table.formula("episode");
@@ -120,8 +120,6 @@ class Reader {
                         "[reward] needs distance = […], which is 0 at the goal, or formula = \"…\"");
       if (!robot_.reward.distance.empty() && !robot_.reward.formula.empty())
         table.wrong("formula", "[reward] has distance and formula, must have one of them");
-      else if (has_width && !robot_.reward.formula.empty())
-        table.wrong("width", "width is of the distance; a formula has its own");
       table.finish();
     } else {
       required(false, "[reward]", "the reward of each step");

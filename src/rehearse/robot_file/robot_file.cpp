@@ -160,16 +160,16 @@ class Builder final : public scenario::ScenarioBuilder {
                                       learned.name, of_plant.value, learned.box.low, learned.box.high));
   }
 
-  /// A model whose timestep is not the plant's, on which contacts depend.
+  /// A model whose timestep is not the plant's moves otherwise, most of all where bodies touch.
   void add_other_timestep(const Dynamics& of_prior, std::vector<std::string>& lines) const {
     const Dynamics& of_plant = robot_.dynamics_of(robot_.plant);
     if (!of_plant.model || !of_prior.model) return;
     const Index plant = mujoco::timesteps(of_plant.model), prior = mujoco::timesteps(of_prior.model);
     if (plant != prior)
-      lines.push_back(
-          fmt::format("MuJoCo does {} timesteps a control step in the plant, {} in the prior, and contacts "
-                      "depend on them (substeps, or the timestep of the model)",
-                      plant, prior));
+      lines.push_back(fmt::format(
+          "MuJoCo does {} timesteps a control step in the plant, {} in the prior (substeps, or the timestep "
+          "of the model)",
+          plant, prior));
   }
 
   static void add_negative_masses(const Variant& prior, std::vector<std::string>& lines) {

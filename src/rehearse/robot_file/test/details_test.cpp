@@ -28,6 +28,8 @@ TEST(Details, OfAFormulaWithACostAndAnEnd) {
   EXPECT_EQ(details(text).reward,
             (Lines{"formula: -rate", "cost: 0.1 * u^2", "of the whole episode: angle_max", "floor -2"}));
   EXPECT_EQ(details(text).ended, "angle > 9");
+  text.replace(text.find("floor = -2"), 10, "width = 0.5");
+  EXPECT_EQ(details(text).reward.front(), "formula: -rate; width 0.5 is of distances, so it has no effect");
 }
 
 TEST(Details, NameProgramsAndNoise) {

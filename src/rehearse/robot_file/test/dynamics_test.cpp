@@ -138,8 +138,8 @@ TEST(Dynamics, ATimestepThatIsNotThePlantsIsSaid) {
       example::with("[plant]", rods + coarse + "[plant]\ndynamics = \"rods\"\n[prior.coarse]\ndynamics = \"coarse\"");
   const scenario::Scenario scenario = builder(text, "swing.toml", folder)->build();
   EXPECT_EQ(scenario.priors.front().lacks.back(),
-            "MuJoCo does 10 timesteps a control step in the plant, 4 in the prior, and contacts depend on them "
-            "(substeps, or the timestep of the model)");
+            "MuJoCo does 10 timesteps a control step in the plant, 4 in the prior (substeps, or the timestep of the "
+            "model)");
 }
 
 TEST(Dynamics, AModelIsCompiledOnceForAllThatIsMadeOfIt) {

@@ -105,8 +105,6 @@ const Wrong kWrong[] = {
     {"\"sin(angle)\"]", "\"sin(angle\"]", "reward.distance: 'sin(angle'"},
     {"width = 0.5", "formula = \"height\"", "line 26: [reward] has distance and formula, must have one of them"},
     {"width = 0.5", "width = 0", "width = 0, must be > 0"},
-    {"distance = [\"1 - height\", \"sin(angle)\"]", "formula = \"height\"",
-     "line 26: width is of the distance; a formula has its own"},
     {"[reward]", "[rewards]", "unknown key 'rewards', did you mean 'reward'?"},
     {"when = \"height > 0.9\"", "", "[success] needs when"},
     {"when = \"height > 0.9\"", "when = \"height ? 1 : 0\"", "success.when: 'a ? b : c' is written where(a, b, c)"},

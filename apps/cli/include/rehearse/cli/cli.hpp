@@ -22,7 +22,7 @@ namespace rehearse {
 
 /// Makes a robot; scenario/ode_builder.hpp and scenario/builder.hpp have builders. Each call makes a new one, since its
 /// options can be set.
-using RobotMaker = std::function<std::unique_ptr<scenario::ScenarioBuilder>()>;
+using RobotMaker = scenario::MakeBuilder;
 
 /// Makes the learners of a family; learners/builder.hpp has `builders_of`.
 using LearnerFamily = std::function<std::vector<std::unique_ptr<learners::LearnerBuilder>>()>;
