@@ -1,5 +1,6 @@
 #include "python/bindings/policy.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <ranges>
 
@@ -15,6 +16,8 @@
 
 namespace rehearse::python {
 
+constexpr Index kRowsOfTheta = 256;  // each has its own θ: more of them take longer to write than to use
+
 py::array_t<double> Policy::act(const py::array_t<double, py::array::f_style | py::array::forcecast>& states,
                                 double time_s) const {
   const auto dx = static_cast<Index>(exported_.states.size());
@@ -27,7 +30,11 @@ py::array_t<double> Policy::act(const py::array_t<double, py::array::f_style | p
   Matrix U(rows, policy_->actions());
   {
     const Unlocked unlocked;
-    policy_->act(exported_.theta.transpose().replicate(rows, 1), X, time_s, U);
+    const Matrix Theta = exported_.theta.transpose().replicate(std::min(rows, kRowsOfTheta), 1);
+    for (Index first = 0; first < rows; first += kRowsOfTheta) {
+      const Index some = std::min(kRowsOfTheta, rows - first);
+      policy_->act(Theta.topRows(some), X.middleRows(first, some), time_s, U.middleRows(first, some));
+    }
     exported_.actuators.command(X, U);
   }
   for (Index row = 0; row < rows; ++row)  // as what is exported answers

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <vector>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rehearse/policy/rbf_kernel.cpp"
@@ -76,31 +76,33 @@ HWY_INLINE void solve(const Lanes& L, const Lanes& b, Index n) {
 /// The memory of the vectors of a block of rows: first what all actions share, then each action's network.
 struct Block {
   Block(const RbfShape& s, Index action, double* memory, Index lanes)
-      : theta(memory, lanes),
-        x(theta.data + s.parameters() * lanes, lanes),
+      : x(memory, lanes),
         k(x.data + s.inputs * lanes, lanes),
-        points(memory + (shared_vectors(s) + action * network_vectors(s)) * lanes, lanes),
+        theta(memory + (shared_vectors(s) + action * network_vectors(s)) * lanes, lanes),
+        points(theta.data + own_parameters(s) * lanes, lanes),
         L(points.data + (s.centres + 1) * s.inputs * lanes, lanes),
         w(L.data + row_of(s.centres) * lanes, lanes),
         factors(w.data + s.centres * lanes, lanes) {}
-  static Index shared_vectors(const RbfShape& s) { return s.parameters() + s.inputs + s.centres; }
-  static Index network_vectors(const RbfShape& s) { return (s.centres + 2) * s.inputs + row_of(s.centres) + s.centres; }
+  static Index own_parameters(const RbfShape& s) { return s.inputs + s.centres * s.inputs + s.centres; }
+  static Index shared_vectors(const RbfShape& s) { return s.inputs + s.centres; }
+  static Index network_vectors(const RbfShape& s) {
+    return own_parameters(s) + (s.centres + 2) * s.inputs + row_of(s.centres) + s.centres;
+  }
   static Index vectors(const RbfShape& s) { return shared_vectors(s) + s.actions * network_vectors(s); }
 
-  Lanes theta;   // parameters
   Lanes x, k;    // inputs, and their covariances with the centres
+  Lanes theta;   // the action's parameters: log lengths, centres, targets
   Lanes points;  // centres and, last, the inputs, divided by the length scales
   Lanes L, w;
   Lanes factors;  // 1/ℓ of each input
 };
 
-/// Computes an action's network at θ: its centres, L, and L⁻¹ y in w.
-HWY_INLINE void prepare(const RbfShape& s, Index action, const Block& block) {
+/// Computes the network at θ: its centres, L, and L⁻¹ y in w.
+HWY_INLINE void prepare(const RbfShape& s, const Block& block) {
   const D d;
-  const Index n = s.centres, lengths = action * s.inputs, centres = s.actions * s.inputs;
-  const Index targets = centres + n * s.inputs + action * n;
+  const Index n = s.centres, centres = s.inputs, targets = centres + n * s.inputs;
   for (Index i = 0; i < s.inputs; ++i) {
-    const V factor = hn::Exp(d, hn::Neg(clamp(block.theta[lengths + i], kLargestLogLength)));
+    const V factor = hn::Exp(d, hn::Neg(clamp(block.theta[i], kLargestLogLength)));
     block.factors.set(i, factor);
     for (Index c = 0; c < n; ++c)
       block.points.set(c * s.inputs + i, hn::Mul(block.theta[centres + c * s.inputs + i], factor));
@@ -135,23 +137,31 @@ HWY_INLINE bool load(const double* from, Index stride, Index columns, Index row,
   return changed;
 }
 
-/// A thread's block, and what it holds.
+/// The same of an action's parameters.
+HWY_INLINE bool load_network(const RbfShape& s, Index action, const double* theta, Index stride, Index row, Index count,
+                             const Lanes& to) {
+  const Index centres = s.actions * s.inputs, targets = centres + s.centres * s.inputs;
+  const auto at = [&](Index i) { return Lanes(to.data + i * to.lanes, to.lanes); };
+  bool changed = load(theta + action * s.inputs * stride, stride, s.inputs, row, count, to);
+  changed |= load(theta + centres * stride, stride, s.centres * s.inputs, row, count, at(s.inputs));
+  changed |= load(theta + (targets + action * s.centres) * stride, stride, s.centres, row, count,
+                  at(s.inputs + s.centres * s.inputs));
+  return changed;
+}
+
+/// A thread's block.
 struct Memory {
   void reserve(const RbfShape& wanted, Index lanes) {
     const Index needed = Block::vectors(wanted) * lanes;
     if (shape == wanted && allocated > 0) return;
-    if (needed > allocated) {
-      block = hwy::AllocateAligned<double>(static_cast<std::size_t>(needed)), allocated = needed;
-      std::fill_n(block.get(), needed, 0.0);
-    }
+    if (needed > allocated) block = hwy::AllocateAligned<double>(static_cast<std::size_t>(needed)), allocated = needed;
+    std::fill_n(block.get(), needed, std::numeric_limits<double>::quiet_NaN());  // which no θ is
     shape = wanted;
-    prepared.assign(static_cast<std::size_t>(wanted.actions), false);
   }
 
   hwy::AlignedFreeUniquePtr<double[]> block;
   Index allocated = 0;
   RbfShape shape{};
-  std::vector<char> prepared;  // of each action: its network is that of θ
 };
 
 void RbfKernel(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride,
@@ -162,12 +172,9 @@ void RbfKernel(const RbfShape& shape, const double* theta, Index theta_stride, c
   // Actions are outside, so that the cache keeps the network that all rows ask.
   for (Index a = 0; a < shape.actions; ++a) {
     const Block of_action(shape, a, memory.block.get(), lanes);
-    char& prepared = memory.prepared[static_cast<std::size_t>(a)];
     for (Index row = 0; row < rows; row += lanes) {
       const Index count = rows - row < lanes ? rows - row : lanes;
-      if (load(theta, theta_stride, shape.parameters(), row, count, of_action.theta))
-        std::fill(memory.prepared.begin(), memory.prepared.end(), false);
-      if (!prepared) prepare(shape, a, of_action), prepared = true;
+      if (load_network(shape, a, theta, theta_stride, row, count, of_action.theta)) prepare(shape, of_action);
       load(in, in_stride, shape.inputs, row, count, of_action.x);
       of_action.k.set(0, act(shape, of_action));
       for (Index i = 0; i < count; ++i) out[a * out_stride + row + i] = of_action.k.data[i];
