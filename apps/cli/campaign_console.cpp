@@ -54,13 +54,6 @@ std::string first_successes(const Campaign& campaign, std::size_t group) {
   return fmt::format("{}", fmt::join(trials, " "));
 }
 
-Index runs_done(const Campaign& campaign, std::size_t group) {
-  Index runs = 0;
-  for (std::size_t seed = 0; seed < campaign.plan.seeds.size(); ++seed)
-    runs += campaign.outcome(group, seed).state == RunState::done;
-  return runs;
-}
-
 void print_groups(const Campaign& campaign) {
   const Index last = campaign.plan.trials;
   std::vector<std::vector<std::string>> rows = {{"learner", "runs", fmt::format("solved by trial {} (95 %)", last),
@@ -69,10 +62,11 @@ void print_groups(const Campaign& campaign) {
   for (std::size_t i = 0; i < campaign.plan.groups.size(); ++i) {
     const std::vector<TrialStatistics> trials = campaign::trial_statistics(campaign, i);
     const bool reached = !trials.empty() && trials.back().trial == last;
-    rows.push_back(
-        {label_of(campaign.plan.groups[i]), fmt::format("{}/{}", runs_done(campaign, i), campaign.plan.seeds.size()),
-         reached ? rate_text(trials.back().solved_by) : "-", reached ? numbers_text(trials.back().total_reward) : "-",
-         trials.empty() || trials.back().solved ? first_successes(campaign, i) : "-"});
+    rows.push_back({label_of(campaign.plan.groups[i]),
+                    fmt::format("{}/{}", campaign.count(RunState::done, i), campaign.plan.seeds.size()),
+                    reached ? rate_text(trials.back().solved_by) : "-",
+                    reached ? numbers_text(trials.back().total_reward) : "-",
+                    trials.empty() || trials.back().solved ? first_successes(campaign, i) : "-"});
   }
   put("\n");
   for (const std::string& line : aligned(rows)) put("  {}\n", line);

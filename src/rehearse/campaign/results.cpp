@@ -38,8 +38,11 @@ std::vector<std::string> Campaign::remarks() const {
   return lines;
 }
 
-Index Campaign::count(RunState state) const {
-  return std::count_if(runs.begin(), runs.end(), [&](const RunOutcome& run) { return run.state == state; });
+Index Campaign::count(RunState state) const { return std::ranges::count(runs, state, &RunOutcome::state); }
+
+Index Campaign::count(RunState state, std::size_t group) const {
+  const auto first = runs.begin() + static_cast<std::ptrdiff_t>(group * plan.seeds.size());
+  return std::ranges::count(first, first + std::ssize(plan.seeds), state, &RunOutcome::state);
 }
 
 RunOutcome outcome_of(statistics::Table trials, Index planned_trials) {

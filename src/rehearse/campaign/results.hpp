@@ -51,6 +51,7 @@ struct Campaign {
     return runs[group * plan.seeds.size() + seed];
   }
   Index count(RunState state) const;
+  Index count(RunState state, std::size_t group) const;
   /// A line for each learner that is missing, each thing in the folder that is none of its own, and each run that
   /// failed before.
   std::vector<std::string> remarks() const;

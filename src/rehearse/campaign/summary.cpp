@@ -140,13 +140,14 @@ Json runs_json(const Campaign& campaign) {
 
 Json group_json(const Campaign& campaign, std::size_t index) {
   const CampaignGroup& group = campaign.plan.groups[index];
-  const auto runs = runs_of(campaign, index);
-  const auto count = [&](RunState state) {
-    return std::count_if(runs.begin(), runs.end(), [&](const RunOutcome* run) { return run->state == state; });
-  };
-  Json json = {{"learner", group.learner},          {"prior", group.prior},   {"variant", group.variant},
-               {"options", Json::object()},         {"runs", runs.size()},    {"done", count(RunState::done)},
-               {"failed", count(RunState::failed)}, {"trials", Json::array()}};
+  Json json = {{"learner", group.learner},
+               {"prior", group.prior},
+               {"variant", group.variant},
+               {"options", Json::object()},
+               {"runs", campaign.plan.seeds.size()},
+               {"done", campaign.count(RunState::done, index)},
+               {"failed", campaign.count(RunState::failed, index)},
+               {"trials", Json::array()}};
   for (const auto& [key, text] : group.options) json["options"][key] = text;
   for (const TrialStatistics& trial : trial_statistics(campaign, index))
     json["trials"].push_back({{"trial", trial.trial},

@@ -70,17 +70,23 @@ struct KnownAs {
   bool known() const { return trial > 0 || log > 0; }
 };
 
+/// The place of the first, from 1; 0: there is none.
+template <class All, class Is>
+Index place(const All& all, Is is) {
+  const auto found = std::ranges::find_if(all, is);
+  return found == all.end() ? 0 : found - all.begin() + 1;
+}
+
+KnownAs known_by_bytes(const History& history, const ToldFile& file) {
+  const auto same_bytes = [&](const auto& one) { return one.file_checksum == file.checksum; };
+  return {place(history.trials, same_bytes), place(history.logs, same_bytes)};
+}
+
 /// By the bytes, or, once it was read, by the numbers: other ends of lines, or the copy in the run's folder, make no
 /// other episode.
 KnownAs known_as(const History& history, const ToldFile& file, const Task& task) {
-  const auto place = [](const auto& all, const auto& is) -> Index {
-    const auto found = std::ranges::find_if(all, is);
-    return found == all.end() ? 0 : found - all.begin() + 1;
-  };
-  const auto same_bytes = [&](const auto& one) { return one.file_checksum == file.checksum; };
-  const KnownAs by_bytes{place(history.trials, same_bytes), place(history.logs, same_bytes)};
-  if (by_bytes.known()) return by_bytes;
-  if (!file.whole) return {};
+  const KnownAs by_bytes = known_by_bytes(history, file);
+  if (by_bytes.known() || !file.whole) return by_bytes;
   const Episode& read = file.whole->episode;
   return {place(history.episodes, [&](const Episode& kept) { return repeats(read, kept, task.horizon); }),
           place(history.logs, [&](const Log& log) { return repeats(read, log.episode, read.steps()); })};
@@ -203,8 +209,7 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
   std::vector<ToldFile> news;
   for (ToldFile& file : files) {
     // Bytes that are known say enough, unless a policy was asked for, which may have done the same again.
-    if (history.asked || !known_as(history, file, resolved.scenario.task).known())
-      file.whole = readable(file, resolved.scenario.task);
+    if (history.asked || !known_by_bytes(history, file).known()) file.whole = readable(file, resolved.scenario.task);
     const KnownAs as = known_as(history, file, resolved.scenario.task);
     // A robot without noise may do exactly the same again.
     if (!as.known() ||

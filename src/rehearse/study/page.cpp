@@ -107,6 +107,8 @@ Curves curves(const Study& study, const Task& task, const Tested& tested, std::s
 std::string parameter_bars(const Study& study) {
   const std::vector<Interval> all = intervals_of(study.model);
   if (all.empty()) return "";
+  std::vector<std::vector<Interval>> without;
+  for (const LogModel& model : study.without) without.push_back(intervals_of(model));
   const identification::PhiPosterior& posterior = *study.model.learned.posterior;
   std::string svg;
   const double row = 42;
@@ -126,9 +128,8 @@ std::string parameter_bars(const Study& study) {
         name, escaped(with_unit(parameter.name, parameter.unit)), y + 14, parameter.box.low, y + 14, parameter.box.high,
         y + 18, y + 18);
     bar(all[i], y + 2, 8);
-    for (std::size_t m = 0; m < study.without.size(); ++m)
-      if (const std::vector<Interval> others = intervals_of(study.without[m]); !others.empty())
-        bar(others[i], y + 11 + 3 * static_cast<double>(m), 2);
+    for (std::size_t m = 0; m < without.size(); ++m)
+      if (!without[m].empty()) bar(without[m][i], y + 11 + 3 * static_cast<double>(m), 2);
     const double mean = x(posterior.mean(static_cast<Index>(i)));
     svg +=
         fmt::format("<line class=\"measured\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", mean, y, y + 12);

@@ -88,7 +88,10 @@ Campaign two_solved_and_one_under_way(bool until_solved) {
 }
 
 TEST(Summary, RunsUnderWayCountWhereOthersEndEarly) {
-  const std::vector<TrialStatistics> trials = trial_statistics(two_solved_and_one_under_way(true), 0);
+  const Campaign campaign = two_solved_and_one_under_way(true);
+  EXPECT_EQ(campaign.count(RunState::done, 0), 2);
+  EXPECT_EQ(campaign.count(RunState::done, 1), 0);
+  const std::vector<TrialStatistics> trials = trial_statistics(campaign, 0);
   ASSERT_EQ(trials.size(), 4u);
   EXPECT_EQ(trials[3].runs, 3);
   EXPECT_EQ(trials[3].solved_by->count, 2);
