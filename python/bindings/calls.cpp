@@ -12,6 +12,28 @@ namespace {
 
 thread_local int functions_of_robots = 0;  // in which this thread is
 
+/// Whoever has it may call functions of robots. Without it threads would take the interpreter's lock from each other
+/// in the middle of functions, since NumPy gives it away in each operation: two threads took three times as long as
+/// one. Never freed: after a fork the lock of a thread that is gone stays locked.
+std::mutex* turn = new std::mutex;
+
+std::unique_lock<std::mutex> wait_for_turn() {
+  if (functions_of_robots > 0) return {};  // it is this thread's
+  std::unique_lock mine(*turn, std::defer_lock);
+  if (PyGILState_Check() == 0) {
+    mine.lock();
+  } else if (!mine.try_lock()) {
+    const py::gil_scoped_release unlocked;  // whoever has the turn needs it to end
+    mine.lock();
+  }
+  return mine;
+}
+
+struct InFunction {
+  InFunction() { ++functions_of_robots; }
+  ~InFunction() { --functions_of_robots; }
+};
+
 using FortranArray = py::array_t<double, py::array::f_style | py::array::forcecast>;
 
 std::string shape_of(const py::array& array) {
@@ -105,13 +127,16 @@ py::array_t<double> to_vector(const ConstVectorView& x) {
 bool in_function_of_robot() { return functions_of_robots > 0; }
 
 void call(const Callable& of, const std::function<void(const py::object& function)>& work) {
-  struct Inside {
-    Inside() { ++functions_of_robots; }
-    ~Inside() { --functions_of_robots; }
-  };
-  const Inside inside;
+  const auto mine = wait_for_turn();
+  call_at_once(of, work);
+}
+
+void call_at_once(const Callable& of, const std::function<void(const py::object& function)>& work) {
+  const InFunction inside;
   call_between(of, work);
 }
+
+void forget_other_threads() { turn = new std::mutex; }
 
 void call_between(const Callable& of, const std::function<void(const py::object& function)>& work) {
   const py::gil_scoped_acquire lock;

@@ -55,8 +55,14 @@ struct Callable {
 /// system::Unavailable, which ends a run.
 void call_between(const Callable& of, const std::function<void(const py::object& function)>& work);
 
-/// The same for a function of a robot, in the middle of work: this thread's memory is in use.
+/// The same for a function of a robot, in the middle of work: this thread's memory is in use. One thread at a time.
 void call(const Callable& of, const std::function<void(const py::object& function)>& work);
+
+/// The same for an environment, by any number of threads: robots of several runs move at once.
+void call_at_once(const Callable& of, const std::function<void(const py::object& function)>& work);
+
+/// In the child of a fork, where no other thread goes on.
+void forget_other_threads();
 
 /// True while this thread is in a function of a robot.
 bool in_function_of_robot();

@@ -38,9 +38,11 @@ Unlocked::InFlight::~InFlight() { --works_in_flight; }
 
 void stop_work_at_exit() {
   py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_work));
-  // No other thread goes on in a child.
-  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
-                                                         py::cpp_function([] { works_in_flight = 0; }));
+  const auto in_child = [] {  // no other thread goes on there
+    works_in_flight = 0;
+    forget_other_threads();
+  };
+  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") = py::cpp_function(in_child));
 }
 
 bool Interruption::asked() {

@@ -19,20 +19,20 @@ constexpr Index kRowsAtOnce = 16384;
 class PythonPlant final : public system::Plant {
  public:
   explicit PythonPlant(const Callable& make) : environment_(make) {
-    call(make, [&](const py::object& function) { environment_.function = shared(function()); });
+    call_at_once(make, [&](const py::object& function) { environment_.function = shared(function()); });
   }
 
   Vector reset(Rng& rng) override {
     Vector state;
     const auto seed = static_cast<std::uint32_t>(rng() >> 32);
     ended_ = false;
-    call(environment_, [&](const py::object& it) { state = state_of(it.attr("reset")(seed)); });
+    call_at_once(environment_, [&](const py::object& it) { state = state_of(it.attr("reset")(seed)); });
     return state;
   }
 
   Vector step(const Vector& u) override {
     Vector state;
-    call(environment_, [&](const py::object& it) {
+    call_at_once(environment_, [&](const py::object& it) {
       const py::tuple result = it.attr("step")(to_vector(u));
       state = state_of(result[0]);
       ended_ = result[1].cast<bool>();
@@ -44,7 +44,7 @@ class PythonPlant final : public system::Plant {
 
   void finish() noexcept override {
     try {
-      call(environment_, [](const py::object& it) { it.attr("finish")(); });
+      call_at_once(environment_, [](const py::object& it) { it.attr("finish")(); });
     } catch (...) {  // the exception is kept, and ends the work
     }
   }

@@ -108,11 +108,11 @@ class Model:
     """How states change in a control step: a prior, or a plant that is simulated.
 
     change: function(states, actions, **parameters) → the changes of the states, n × dx. It is called with thousands of
-    rows, by any thread; a call may begin before another ends. A row depends on that row alone; one that cannot be
-    simulated is NaN. rates: instead, a formula for the derivative of each state by time. parameters: the function's, or
-    the formulas', at the values to start from. units: of parameters, for tables and figures. tune: of a prior, those
-    that are learned, between bounds (low, high), or among a list of values. delay_s, lag_s: of a plant, by action, where
-    they are others than `Action` says.
+    rows, by any thread, one at a time. A row depends on that row alone; one that cannot be simulated is NaN. rates:
+    instead, a formula for the derivative of each state by time. parameters: the function's, or the formulas', at the
+    values to start from. units: of parameters, for tables and figures. tune: of a prior, those that are learned, between
+    bounds (low, high), or among a list of values. delay_s, lag_s: of a plant, by action, where they are others than
+    `Action` says.
     """
 
     change: Union[Callable[..., Any], None] = None

@@ -173,6 +173,22 @@ def test_functions_and_events_are_let_go(tmp_path):
     assert [reference() for reference in kept] == [None, None]
 
 
+def test_functions_are_called_by_one_thread_at_a_time(tmp_path):
+    at_once, most, threads = 0, 0, set()
+
+    def counted(states, actions, following):
+        nonlocal at_once, most
+        at_once += 1
+        most = max(most, at_once)
+        threads.add(threading.get_ident())
+        time.sleep(1e-3)  # lets other threads go on
+        at_once -= 1
+        return reward(states, actions, following)
+
+    campaign(cart(reward=counted), tmp_path / "out", trials=1)
+    assert most == 1 and len(threads) > 1
+
+
 def test_control_c_stops_it_and_the_same_call_goes_on(tmp_path):
     script = f"""
 import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
