@@ -225,7 +225,7 @@ grep -q "trial = 99, must be between" stderr || fail "an option hides that there
 
 # Failures with a cause outside the run (memory, disk) end by resuming it; failures of its computation do not.
 (
-  ulimit -v 3000000
+  ulimit -v 1000000
   "$program" list >/dev/null 2>&1 || exit 0  # not with a sanitizer
   expect 1 "there is not enough memory; the largest sizes that are asked for: learner.search.selection = 1000000, scenario.hidden = 3000" 2 \
     learn pendulum --learner gp-mi --trials 1 --threads 1 --set search.selection=1000000 --set hidden=3000 --out large

@@ -12,7 +12,7 @@ ranks() { # ranks N ARGS…
 ranks_alone() { # the same, as this process itself
   local n=$1
   shift
-  exec "$mpirun" --oversubscribe --bind-to none -n "$n" "$program" "$@"
+  exec "$mpirun" --oversubscribe --mca mpi_yield_when_idle 1 --bind-to none -n "$n" "$program" "$@"
 }
 # kill_rank RANK UNTIL-COMMAND… : of the ranks_alone that were started with "&" last; fails if they ended before
 kill_rank() {

@@ -24,7 +24,7 @@ run() { # run FOLDER RUN LAUNCHER… : the run named RUN
     ite) arguments=(pendubot --learner ite --prior misleading --set archive.niches=200 --set archive.evaluations=3000) ;;
     gp-ilqg) arguments=(pendubot --learner gp-ilqg --prior useful --set search.starts=4 --set search.iterations=20
       --set model.gp.mirror=on) ;;
-    hexapod) arguments=(hexapod --learner gp-mi --set damage=rear-left --set search.race.max_evaluations=12
+    hexapod) arguments=(hexapod --learner gp-mi --set damage=rear-left --set horizon=10 --set search.race.max_evaluations=12
       --set search.race.descents=2 --set search.selection=1 --set retry.searches=0) ;;
   esac
   "$@" "$program" learn "${arguments[@]}" --trials 2 --seed 5 --threads 2 --out "$out" >/dev/null || fail "$out"

@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/rollout/simulation.hpp"
 
 namespace rehearse::rollout {
 namespace {
 
-constexpr Index kStartsAtOnce = 4;  // a chunk's, whatever the number of threads
+constexpr Index kUsualStarts = 4;  // of a chunk
 
 void check(const Episode& episode, const Journeys& of) {
   const bool ascending = std::ranges::is_sorted(of.horizons) && (of.horizons.empty() || of.horizons.front() >= 1);
@@ -85,9 +86,12 @@ std::vector<Matrix> forecast_particles(const dynamics::DynamicsModel& model, con
                                        const Journeys& journeys, const StreamKey& key, const Evaluator& evaluator) {
   check(episode, journeys);
   const auto starts = static_cast<Index>(journeys.starts.size());
-  std::vector<Matrix> arrived(journeys.horizons.size(), Matrix(starts * journeys.particles, episode.states.cols()));
-  evaluator.for_each((starts + kStartsAtOnce - 1) / kStartsAtOnce, [&](Index c) {
-    const Index first = c * kStartsAtOnce, count = std::min(kStartsAtOnce, starts - first);
+  const Index particles = journeys.particles;
+  const Index rows = rows_of_chunk(starts * particles, kUsualStarts * particles, model.rows_at_once());
+  const Index most = std::max<Index>(1, rows / particles);
+  std::vector<Matrix> arrived(journeys.horizons.size(), Matrix(starts * particles, episode.states.cols()));
+  evaluator.for_each((starts + most - 1) / most, [&](Index c) {
+    const Index first = c * most, count = std::min(most, starts - first);
     Chunk chunk(episode, journeys, key, first, count);
     Index t = 0;
     for (std::size_t i = 0; i < journeys.horizons.size(); ++i) {
@@ -95,7 +99,7 @@ std::vector<Matrix> forecast_particles(const dynamics::DynamicsModel& model, con
         evaluator.stop_if_asked();
         chunk.step(model, t);
       }
-      arrived[i].middleRows(first * journeys.particles, count * journeys.particles) = chunk.states();
+      arrived[i].middleRows(first * particles, count * particles) = chunk.states();
     }
   });
   return arrived;

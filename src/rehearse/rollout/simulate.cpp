@@ -8,14 +8,9 @@
 namespace rehearse::rollout {
 namespace {
 
-/// Rows of a chunk, by the size of the batch alone: each chunk reads the whole model at every step, which on a busy
-/// machine costs more than using it, so many; but so few that a late generation's candidates still occupy several
-/// threads. Whoever is dear to call is called twice a step, for two threads, unless a quarter of the rows that make up
-/// for a call are all there are.
-Index rows_of_chunk(Index batch, Index rows_at_once) {
-  const Index usual = batch >= 512 ? 64 : 32;
-  return std::min(batch, std::max(usual, std::min(rows_at_once, std::max((batch + 1) / 2, rows_at_once / 4))));
-}
+/// Each chunk reads the whole model at every step, which on a busy machine costs more than using it, so many rows; but
+/// so few that a late generation's candidates still occupy several threads.
+Index usual_rows(Index batch) { return batch >= 512 ? 64 : 32; }
 
 LockstepMemory& memory_of_this_thread() {
   thread_local LockstepMemory memory;
@@ -59,7 +54,8 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
   const Task& task = simulation.task;
   check_simulation(simulation, Theta.rows(), particles);
   const Index total = Theta.cols() * particles;
-  const Index most = rows_of_chunk(total, std::max(simulation.model.rows_at_once(), task.rows_at_once));
+  const Index most =
+      rows_of_chunk(total, usual_rows(total), std::max(simulation.model.rows_at_once(), task.rows_at_once));
   const Index chunks = (total + most - 1) / most;
   const auto limits = static_cast<Index>(task.limits.size());
   Matrix results((1 + limits) * most + 1, chunks);  // returns, limits one by one, and how many failed

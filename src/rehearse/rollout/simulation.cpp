@@ -1,10 +1,16 @@
 #include "rehearse/rollout/simulation.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 
 namespace rehearse::rollout {
+
+Index rows_of_chunk(Index batch, Index usual, Index rows_at_once) {
+  return std::min(batch, std::max(usual, std::min(rows_at_once, std::max((batch + 1) / 2, rows_at_once / 4))));
+}
 
 std::vector<std::string> misfits(const policy::Policy& policy, Index parameters, const Task& task) {
   std::vector<std::string> lines;

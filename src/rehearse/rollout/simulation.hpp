@@ -44,6 +44,11 @@ struct Candidates {
   Index particles = 1;
 };
 
+/// The rows of a chunk that goes in lockstep, by the size of the batch alone: `usual`, or more where a model is dear to
+/// call (system::Simulator::rows_at_once): it is called twice a step, for two threads, unless a quarter of the rows
+/// that make up for a call are all there are.
+Index rows_of_chunk(Index batch, Index usual, Index rows_at_once);
+
 /// A line for each way in which θ of so many numbers, a policy and a task do not fit together.
 std::vector<std::string> misfits(const policy::Policy& policy, Index parameters, const Task& task);
 

@@ -1,5 +1,6 @@
 #include "rehearse/rollout/particles.hpp"
 
+#include <atomic>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,13 +13,21 @@ namespace {
 /// x moves by u and by noise of deviation 0.1; beyond 100 it has no prediction.
 class Drift final : public dynamics::DynamicsModel {
  public:
+  explicit Drift(Index rows_at_once = 0) : rows_at_once_(rows_at_once) {}
+
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
                MatrixView variance) const override {
+    ++calls;
     mean = U;
     for (Index i = 0; i < X.rows(); ++i)
       if (X(i, 0) > 100) mean(i, 0) = std::nan("");
     variance.setConstant(0.01);
   }
+  Index rows_at_once() const override { return rows_at_once_; }
+  mutable std::atomic<Index> calls = 0;
+
+ private:
+  Index rows_at_once_;
 };
 
 Episode ramp(Index steps) {
@@ -43,6 +52,15 @@ TEST(Particles, DependOnStartAndNumberAlone) {
   const auto many =
       forecast_particles(Drift(), ramp(20), {{1, 2, 3, 4, 7}, {1, 2}, 5, {}}, {.seed = 5}, *make_thread_evaluator(2));
   EXPECT_EQ(one[0], many[1].bottomRows(5));
+}
+
+TEST(Particles, AModelWhoseCallsAreDearIsCalledOnceAStep) {
+  const Journeys journeys{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {4}, 5, {}};
+  const Drift dear(1000), cheap;
+  const auto arrived = forecast_particles(dear, ramp(20), journeys, {.seed = 5}, serial_evaluator());
+  EXPECT_EQ(arrived, forecast_particles(cheap, ramp(20), journeys, {.seed = 5}, serial_evaluator()));
+  EXPECT_EQ(dear.calls, 4);
+  EXPECT_EQ(cheap.calls, 3 * 4);  // of four starts each
 }
 
 TEST(Particles, WhatFailsStaysFailed) {

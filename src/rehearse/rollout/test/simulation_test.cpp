@@ -24,6 +24,14 @@ TEST(CheckSimulation, RefusesPartsThatDoNotFit) {
   EXPECT_EQ(refusal(parameters, 1), "the policy 'mlp' has 1 actions, must have the 2 of the task");
 }
 
+TEST(RowsOfChunk, AreMoreWhereCallsAreDear) {
+  EXPECT_EQ(rows_of_chunk(1000, 64, 0), 64);
+  EXPECT_EQ(rows_of_chunk(10, 64, 0), 10);
+  EXPECT_EQ(rows_of_chunk(1000, 64, 10000), 1000);
+  EXPECT_EQ(rows_of_chunk(1000, 64, 2000), 500);
+  EXPECT_EQ(rows_of_chunk(1000, 64, 100), 100);
+}
+
 TEST(SimulateOptions, AreNamedWithTheirBounds) {
   SimulateOptions options{.noise_clip = -1, .measurement_noise = -2};
   EXPECT_EQ(field_violations([&](FieldVisitor& v) { options.fields(v); }).size(), 2U);
