@@ -1,5 +1,3 @@
-#include <array>
-#include <charconv>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -26,21 +24,11 @@ bool a_claim_failed(const Campaign& campaign) {
   return false;
 }
 
-/// "3/20"
 campaign::Share share_of(const std::optional<std::string>& text, Violations& violations) {
   if (!text) return {};
-  const std::size_t slash = text->find('/');
-  std::array<Index, 2> numbers{};
-  const std::array<std::string, 2> texts = {text->substr(0, slash),
-                                            slash == std::string::npos ? "" : text->substr(slash + 1)};
-  bool right = true;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto [end, error] = std::from_chars(texts[i].data(), texts[i].data() + texts[i].size(), numbers[i]);
-    right = right && error == std::errc() && end == texts[i].data() + texts[i].size();
-  }
-  violations.require(right && 1 <= numbers[0] && numbers[0] <= numbers[1],
-                     fmt::format("--share = {}, must be K/N with K from 1 to N", *text));
-  return {numbers[0], numbers[1]};
+  const auto share = campaign::read_share(*text);
+  violations.require(share.has_value(), fmt::format("--share = {}, must be K/N with K from 1 to N", *text));
+  return share.value_or(campaign::Share());
 }
 
 /// The words for runs that do not stop by themselves; with ranks, mpirun ends those that do not.

@@ -27,7 +27,13 @@ struct CampaignRequest {
   std::string text, source;  // of its file
   std::string scenario;      // of the robot that Python gives; empty: the file says which
   std::string out;
+  campaign::Share share;
 };
+
+campaign::Share share_of(const std::string& text) {
+  if (const auto share = campaign::read_share(text)) return *share;
+  throw InvalidInput(fmt::format("share = '{}', must be 'K/N' with K from 1 to N", text));
+}
 
 /// Tells a function of Python. What it raises is kept, and stops the campaign where that can be continued.
 class CampaignTeller final : public campaign::CampaignListener {
@@ -122,6 +128,7 @@ void do_campaign(const Robot& robot, const CampaignRequest& request, const Setti
                                     {.threads = settings.threads,
                                      .listener = heard ? &teller : nullptr,
                                      .stop = stop,
+                                     .share = request.share,
                                      .cache = apps::cache_folder});
     });
     if (done.count(RunState::unfinished) > 0) throw Interrupted();
@@ -135,10 +142,10 @@ void add_campaign(py::module_& module) {
   module.def(
       "campaign",
       [](const Robot& robot, const std::string& text, const std::string& source, const std::string& scenario,
-         const std::string& out, int threads, py::object listener) {
-        do_campaign(robot, {text, source, scenario, out}, {threads, std::move(listener)});
+         const std::string& out, const std::string& share, int threads, py::object listener) {
+        do_campaign(robot, {text, source, scenario, out, share_of(share)}, {threads, std::move(listener)});
       },
-      "robot"_a, "text"_a, "source"_a, "scenario"_a, "out"_a, "threads"_a, "listener"_a);
+      "robot"_a, "text"_a, "source"_a, "scenario"_a, "out"_a, "share"_a, "threads"_a, "listener"_a);
 }
 
 }  // namespace rehearse::python

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import function_or_none, path_of, path_or_none, read_text, threads_of, whole
+from .checks import function_or_none, path_of, path_or_none, read_text, text as text_of, threads_of, whole
 from .progress import show
 from .robot import Robot
 from .given_robot import Robots, begun_with, name_of, robot_of
@@ -37,20 +37,25 @@ class Campaign:
 
     def __init__(self, folder: PathLike, robot: Union[Robot, None] = None) -> None:
         self.folder = Path(path_of("folder", folder)).absolute()
-        if not (self.folder / "summary.json").exists():
+        if not any((self.folder / name).exists() for name in ("summary.json", "campaign.toml")):
             raise _core.InvalidInput(f"{folder} is not the folder of a campaign")
         self._robot = begun_with(robot)
+
+    def _table(self, name: str) -> Path:
+        if not (path := self.folder / name).exists():
+            raise _core.InvalidInput(f"{self.folder} has no tables: the same call without share writes them")
+        return path
 
     @property
     def trials(self) -> Array:
         """campaign.csv: a row a trial of every run; run, scenario, learner, prior, variant, seed, and what `Run.trials`
         has."""
-        return read_csv(self.folder / "campaign.csv", texts=("run", "scenario", "learner", "prior", "variant"))
+        return read_csv(self._table("campaign.csv"), texts=("run", "scenario", "learner", "prior", "variant"))
 
     @property
     def summary(self) -> dict[str, Any]:
         """summary.json, as docs/campaigns.md describes it."""
-        return dict(json.loads(read_text(self.folder / "summary.json")))
+        return dict(json.loads(read_text(self._table("summary.json"))))
 
     @property
     def runs(self) -> Array:
@@ -99,6 +104,8 @@ class Campaign:
         return plot_campaign(self)
 
     def _repr_html_(self) -> str:
+        if not (self.folder / "summary.json").exists():
+            return f"<pre>{escape(repr(self))}</pre>"
         summary, groups, claims = self.summary, self.groups, self.claims
         counts = ", ".join(f"{number} {what}" for what, number in summary["counts"].items() if number or what == "runs")
         parts = [f"<p>{escape(summary['title'])}: {counts}, in {escape(str(self.folder))}</p>"]
@@ -113,6 +120,8 @@ class Campaign:
         return "".join(parts)
 
     def __repr__(self) -> str:
+        if not (self.folder / "summary.json").exists():
+            return f"<rehearse.Campaign {self.folder}: without tables>"
         counts = self.summary["counts"]
         failed = f", {counts['failed']} failed" if counts["failed"] else ""
         return f"<rehearse.Campaign {self.folder}: {counts['done']} of {counts['runs']} runs done{failed}>"
@@ -124,15 +133,16 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
              set: Union[Options, None] = None, learner: Union[Mapping[str, Options], None] = None,
              vary: Union[Mapping[str, Sequence[Any]], None] = None, variant: Union[Sequence[Options], None] = None,
              draw: Union[Mapping[str, Sequence[float]], None] = None, claim: Union[Sequence[Options], None] = None,
-             title: Union[str, None] = None, out: Union[PathLike, None] = None, threads: int = 0,
-             progress: Progress = show) -> Campaign:
+             title: Union[str, None] = None, out: Union[PathLike, None] = None, share: Union[str, None] = None,
+             threads: int = 0, progress: Progress = show) -> Campaign:
     """Runs a grid of learners × priors × varied options × seeds; it goes on where the folder has begun.
 
     given: a campaign's file, "NAME.toml"; or a robot as `learn` takes it, and the keys of such a file as arguments
     (docs/campaigns.md): learners and seeds ("1-30", [1, 2, 5], or a number: that seed alone) at least. robot: the robot
     that a file's `scenario` names, where it is an object. out: by default runs/NAME of a file, runs/ROBOT-campaign.
     threads: 0 are all cores; as many runs go at once, any number gives the same bytes, which are those of the command
-    line. An environment that is given as an object, not as a function that makes one, and a class with `end`, which is a
+    line. share: "3/20" does every 20th run, from the third on, beside other processes with the other numbers
+    (docs/cluster.md); the same call without it writes the tables. An environment that is given as an object, not as a function that makes one, and a class with `end`, which is a
     real robot, are used by one run at a time. progress: function(event), see `show`.
 
     A run that fails is recorded, and does not stop the others. Ctrl-C stops it, and the same call goes on; finished runs
@@ -147,11 +157,12 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
             for key, entry in keys.items() if entry is not None}
     text, source, scenario, core, own = _given(given, robot, keys)
     folder = path_or_none("out", out) or f"runs/{Path(source).stem}"
+    part = "1/1" if share is None else text_of("share", share)
     threads, progress = threads_of(threads), function_or_none("progress", progress)
     if own is not None and own.one_at_a_time:
         threads = 1
     try:
-        _core.campaign(core, text, source, scenario, folder, threads, progress)
+        _core.campaign(core, text, source, scenario, folder, part, threads, progress)
     except _core.InvalidInput as error:
         raise _core.InvalidInput(quoting(text.decode(errors="replace"), source, str(error))) from None
     except KeyboardInterrupt as stopped:

@@ -173,6 +173,18 @@ def test_functions_and_events_are_let_go(tmp_path):
     assert [reference() for reference in kept] == [None, None]
 
 
+def test_shares_make_the_tables_of_the_whole(tmp_path):
+    for share in ("1/2", "2/2"):
+        part = campaign(cart(), tmp_path / "shared", share=share)
+    assert "without tables" in repr(part) and "without tables" in part._repr_html_()
+    with pytest.raises(rehearse.InvalidInput, match="no tables: the same call without share"):
+        part.groups
+    events = []
+    done = campaign(cart(), tmp_path / "shared", progress=events.append)
+    assert [event["kind"] for event in events] == ["campaign"], "a share left a run undone"
+    assert files(done) == files(campaign(cart(), tmp_path / "whole"))
+
+
 def test_functions_are_called_by_one_thread_at_a_time(tmp_path):
     at_once, most, threads = 0, 0, set()
 
@@ -195,7 +207,7 @@ import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
 from robots import cart
 import rehearse
 rehearse.campaign(cart(), learners="gp-mi", seeds="1-2", trials=2, out={str(tmp_path / "out")!r}, threads=2,
-                  set={{"search.race.max_evaluations": 30000}},
+                  set={{"search.race.max_evaluations": 15000}},
                   progress=lambda event: print(event["kind"], event.get("trial"), flush=True))
 """
     process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -207,7 +219,7 @@ rehearse.campaign(cart(), learners="gp-mi", seeds="1-2", trials=2, out={str(tmp_
     _, error = process.communicate(timeout=60)
     assert time.monotonic() - begun < 5
     assert "KeyboardInterrupt: interrupted: the same call goes on" in error and process.returncode != 0
-    options = {"search.race.max_evaluations": 30000}
+    options = {"search.race.max_evaluations": 15000}
     stopped = rehearse.open_campaign(tmp_path / "out")
     assert stopped.summary["counts"]["unfinished"] >= 1 and len(stopped.trials) < 4
     rest = campaign(cart(), tmp_path / "out", seeds="1-2", set=options)
@@ -328,6 +340,7 @@ def test_what_is_wrong_is_said_and_leaves_no_folder(tmp_path):
     refused("search.selection = , must be a whole number", cart(), set={"search.selection": ""})
     refused("nan must be a finite number", cart(), set={"plant.mass": float("nan")})
     refused("threads = -1, must be ≥ 0", cart(), threads=-1)
+    refused("share = '3/2', must be 'K/N' with K from 1 to N", cart(), share="3/2")
     refused("^progress = 3, must be a function or None$", cart(), TypeError, progress=3)
     refused("unknown option '1'", cart(), set={1: 3})
     refused("^robot = 3, must be a Robot, the name of a built-in one, or a path$", 3, TypeError)

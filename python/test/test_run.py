@@ -267,7 +267,7 @@ def test_control_c_stops_it_and_resume_goes_on(tmp_path):
 import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
 from robots import cart
 import rehearse
-rehearse.learn(cart(), trials=3, out={str(tmp_path / "run")!r}, threads=2, options={{"search.race.max_evaluations": 60000}})
+rehearse.learn(cart(), trials=3, out={str(tmp_path / "run")!r}, threads=2, options={{"search.race.max_evaluations": 30000}})
 """
     process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     for line in process.stdout:
@@ -279,7 +279,7 @@ rehearse.learn(cart(), trials=3, out={str(tmp_path / "run")!r}, threads=2, optio
     assert "KeyboardInterrupt: interrupted: rehearse.resume(" in error and process.returncode != 0
     assert len(rehearse.open_run(tmp_path / "run", cart()).trials) in (1, 2)
     rest = rehearse.resume(tmp_path / "run", cart(), progress=None)
-    whole = learn(cart(), tmp_path / "whole", trials=3, options={"search.race.max_evaluations": 60000})
+    whole = learn(cart(), tmp_path / "whole", trials=3, options={"search.race.max_evaluations": 30000})
     assert files(rest) == files(whole)
 
 

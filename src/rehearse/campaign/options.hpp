@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "rehearse/campaign/results.hpp"
+#include "rehearse/campaign/share.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/ranks.hpp"
 #include "rehearse/experiment/run_store.hpp"
@@ -17,12 +18,6 @@ class CampaignListener {
   virtual void run_started(std::size_t /*run*/, Index /*trials done before*/) {}
   virtual void progress(std::size_t /*run*/, Index /*trial*/, const Progress&) {}
   virtual void run_ended(std::size_t /*run*/, const RunOutcome&) {}
-};
-
-/// Every `of`-th run of a campaign, from number `number` on: that of one of several processes that work in the same
-/// folder and need not know of each other.
-struct Share {
-  Index number = 1, of = 1;
 };
 
 /// Settings that do not decide results.
