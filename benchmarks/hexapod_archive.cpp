@@ -25,7 +25,7 @@ void evaluate(const scenario::Scenario& robot, const dynamics::DynamicsModel& mo
               VectorView performances, MatrixView descriptors) {
   thread_local rollout::Episodes episodes;
   thread_local Episode episode;
-  rollout::simulate_episodes({model, *robot.policy, robot.task, {}, {.sample = false}}, X, 0, episodes);
+  rollout::simulate_episodes({model, *robot.policy, robot.task, {}, {.sample = false}}, X, {}, episodes);
   for (Index i = 0; i < X.rows(); ++i) {
     performances(i) = std::numeric_limits<double>::quiet_NaN();
     if (episodes.failed[static_cast<std::size_t>(i)]) continue;

@@ -29,10 +29,11 @@ void Lockstep::set_row(Index row, const ConstVectorView& theta, std::uint64_t ca
   m_.particles[static_cast<std::size_t>(row)] = particle;
 }
 
-void Lockstep::set_rows(const ConstMatrixView& Theta, std::uint64_t first_candidate) {
+void Lockstep::set_rows(const ConstMatrixView& Theta, const Numbering& candidates) {
   m_.Theta = Theta;
+  const auto period = static_cast<std::size_t>(candidates.period);
   for (std::size_t row = 0; row < m_.candidates.size(); ++row) {
-    m_.candidates[row] = first_candidate + row;
+    m_.candidates[row] = candidates.first + (period > 0 ? row % period : row);
     m_.particles[row] = 0;
   }
 }

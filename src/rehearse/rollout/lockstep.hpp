@@ -33,8 +33,7 @@ class Lockstep {
   Lockstep(const Simulation& of, Index rows, LockstepMemory& memory);
 
   void set_row(Index row, const ConstVectorView& theta, std::uint64_t candidate, std::uint64_t particle);
-  /// Row i is candidate `first_candidate` + i.
-  void set_rows(const ConstMatrixView& Theta, std::uint64_t first_candidate);
+  void set_rows(const ConstMatrixView& Theta, const Numbering& candidates);
 
   void start();
 

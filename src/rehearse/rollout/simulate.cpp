@@ -103,11 +103,11 @@ Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, In
   return recorded;
 }
 
-void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, std::uint64_t first_candidate,
+void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, const Numbering& candidates,
                        Episodes& episodes, const Evaluator& evaluator) {
   check_simulation(simulation, Theta.cols(), 1);
   Lockstep chunk(simulation, Theta.rows(), memory_of_this_thread());
-  chunk.set_rows(Theta, first_candidate);
+  chunk.set_rows(Theta, candidates);
   run_steps(chunk, simulation.task, evaluator, &episodes);
 }
 

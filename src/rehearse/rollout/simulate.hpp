@@ -35,10 +35,10 @@ struct Recorded {
 Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles,
                            const Evaluator& evaluator = serial_evaluator());
 
-/// One episode of each policy (Theta: rows × parameters, one a row) on the calling thread, all rows in lockstep. Row i
-/// is candidate `first_candidate` + i of the stream. No allocation if `episodes` had the same size before. The
-/// evaluator is asked before each step whether to stop.
-void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, std::uint64_t first_candidate,
+/// One episode of each policy (Theta: rows × parameters, one a row) on the calling thread, all rows in lockstep, each a
+/// candidate of the stream. No allocation if `episodes` had the same size before. The evaluator is asked before each
+/// step whether to stop.
+void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, const Numbering& candidates,
                        Episodes& episodes, const Evaluator& evaluator = serial_evaluator());
 
 }  // namespace rehearse::rollout

@@ -44,6 +44,12 @@ struct Candidates {
   Index particles = 1;
 };
 
+/// The candidates of episodes, one a row: numbered from `first` on, and from there again after `period` rows; 0: never.
+struct Numbering {
+  std::uint64_t first = 0;
+  Index period = 0;
+};
+
 /// The rows of a chunk that goes in lockstep, by the size of the batch alone: `usual`, or more where a model is dear to
 /// call (system::Simulator::rows_at_once): it is called twice a step, for two threads, unless a quarter of the rows
 /// that make up for a call are all there are.

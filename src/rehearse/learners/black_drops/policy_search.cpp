@@ -158,32 +158,40 @@ SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vecto
   if (!problem.task.solved) return all;
   const Index rollouts = comparisons(problem, options);
   const auto models = static_cast<Index>(problem.doubted.size());
-  std::vector<Index> failed(policies.size());
-  problem.evaluator.for_each(all.rates.size(), [&](Index j) {
-    Index solved = 0;
-    const auto simulate = [&](const dynamics::DynamicsModel& model, Index count, const StreamKey& stream) {
-      const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(count, 1);
-      rollout::Episodes episodes;
-      rollout::simulate_episodes({model, problem.policy, problem.task, stream, options.simulate}, Theta, 0, episodes,
-                                 problem.evaluator);
-      Episode episode;
-      for (Index i = 0; i < episodes.rows(); ++i) {
-        if (episodes.failed[static_cast<std::size_t>(i)]) {
-          ++failed[static_cast<std::size_t>(j)];
-          continue;
-        }
-        episodes.copy(i, episode);
-        solved += problem.task.solved(episode);
+  std::vector<Index> solved(policies.size()), failed(policies.size());
+  const auto simulate = [&](const dynamics::DynamicsModel& model, Index count, const StreamKey& stream, Index first,
+                            Index last) {
+    Matrix Theta((last - first) * count, problem.policy.parameters());
+    for (Index j = first; j < last; ++j)
+      Theta.middleRows((j - first) * count, count).rowwise() = policies[static_cast<std::size_t>(j)].transpose();
+    rollout::Episodes episodes;
+    rollout::simulate_episodes({model, problem.policy, problem.task, stream, options.simulate}, Theta,
+                               {.period = count}, episodes, problem.evaluator);
+    Episode episode;
+    for (Index i = 0; i < episodes.rows(); ++i) {
+      const auto j = static_cast<std::size_t>(first + i / count);
+      if (episodes.failed[static_cast<std::size_t>(i)]) {
+        ++failed[j];
+        continue;
       }
-    };
-    if (models == 0) simulate(problem.model, rollouts, key);
+      episodes.copy(i, episode);
+      solved[j] += problem.task.solved(episode);
+    }
+  };
+  const Index rows = rollout::rows_of_chunk(rollouts * all.rates.size(), rollouts, problem.model.rows_at_once());
+  const Index most = std::max<Index>(1, rows / rollouts);  // policies of a chunk
+  problem.evaluator.for_each((all.rates.size() + most - 1) / most, [&](Index c) {
+    const Index first = c * most, last = std::min(first + most, all.rates.size());
+    if (models == 0) simulate(problem.model, rollouts, key, first, last);
     for (Index m = 0; m < std::min(models, rollouts); ++m) {
       StreamKey stream = key;
       stream.descent = static_cast<std::uint64_t>(m) + 1;
-      simulate(*problem.doubted[static_cast<std::size_t>(m)], (rollouts - m + models - 1) / models, stream);
+      simulate(*problem.doubted[static_cast<std::size_t>(m)], (rollouts - m + models - 1) / models, stream, first,
+               last);
     }
-    all.rates(j) = static_cast<double>(solved) / static_cast<double>(rollouts);
   });
+  for (std::size_t j = 0; j < policies.size(); ++j)
+    all.rates(static_cast<Index>(j)) = static_cast<double>(solved[j]) / static_cast<double>(rollouts);
   all.rollouts = rollouts * all.rates.size();
   all.failed = std::accumulate(failed.begin(), failed.end(), Index{0});
   return all;

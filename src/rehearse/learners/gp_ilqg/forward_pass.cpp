@@ -22,7 +22,7 @@ std::vector<Trajectory> ForwardPass::follow(const std::vector<std::vector<policy
     Theta.row(static_cast<Index>(i)) = policy::to_theta(plans[i]).transpose();
   rollout::Episodes episodes;
   rollout::simulate_episodes({problem_.model, *policy, planned, {}, {.sample = false, .measurement_noise = 0}}, Theta,
-                             0, episodes, problem_.evaluator);
+                             {}, episodes, problem_.evaluator);
   std::vector<Trajectory> all(plans.size());
   Episode episode;
   for (std::size_t i = 0; i < plans.size(); ++i) {

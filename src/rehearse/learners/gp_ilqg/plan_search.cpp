@@ -230,7 +230,7 @@ class Search {
     key.stage = Stage::judging;
     const Matrix Theta = policy::to_theta(plan.stages).transpose().replicate(search_.selection, 1);
     rollout::Episodes episodes;
-    rollout::simulate_episodes({problem_.model, *policy, problem_.task, key, {}}, Theta, 0, episodes,
+    rollout::simulate_episodes({problem_.model, *policy, problem_.task, key, {}}, Theta, {}, episodes,
                                problem_.evaluator);
     rollouts_ += search_.selection;
     Judged judged{.mean = episodes.returns.mean()};

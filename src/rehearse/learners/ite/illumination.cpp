@@ -36,7 +36,7 @@ class Rollouts {
   void operator()(const ConstMatrixView& X, VectorView performances, MatrixView descriptors) const {
     thread_local rollout::Episodes episodes;
     thread_local Episode episode;
-    rollout::simulate_episodes({model_, policy_, task_, {}, {.sample = false}}, X, 0, episodes, evaluator_);
+    rollout::simulate_episodes({model_, policy_, task_, {}, {.sample = false}}, X, {}, episodes, evaluator_);
     for (Index i = 0; i < X.rows(); ++i) {
       performances(i) = std::numeric_limits<double>::quiet_NaN();
       if (episodes.failed[static_cast<std::size_t>(i)]) continue;

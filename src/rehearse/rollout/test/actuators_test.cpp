@@ -51,7 +51,7 @@ TEST(ActuatedRollouts, AreThePlantsEpisode) {
   for (Index t = 0; t <= task.horizon; ++t)
     EXPECT_TRUE(recorded.states[static_cast<std::size_t>(t)].row(0).isApprox(episode.states.row(t), 1e-12)) << t;
   Episodes episodes;
-  simulate_episodes({.model = model, .policy = *policy, .task = task}, theta.transpose(), 0, episodes);
+  simulate_episodes({.model = model, .policy = *policy, .task = task}, theta.transpose(), {}, episodes);
   for (Index t = 0; t < task.horizon; ++t)
     EXPECT_NEAR(episodes.actions[static_cast<std::size_t>(t)](0, 0), episode.actions(t, 0), 1e-12);
 }

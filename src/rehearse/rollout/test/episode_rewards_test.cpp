@@ -25,9 +25,9 @@ TEST(EpisodeRewards, AreAddedToEverySimulatedReturn) {
   const cart::Model model(0.01, [](double v, double) { return v > 0.5; });
   const Matrix Theta = cart::candidates(40);
   Episodes before, after;
-  simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), 0, before);
+  simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), {}, before);
   task.episode_reward = of_whole_episode;
-  simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), 0, after);
+  simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), {}, after);
   EXPECT_EQ(simulate_cart(task, Theta, 1, {}, model).returns.row(0).transpose(), after.returns);
   Episode episode;
   for (Index row = 0; row < 40; ++row) {
@@ -38,7 +38,7 @@ TEST(EpisodeRewards, AreAddedToEverySimulatedReturn) {
   }
   EXPECT_EQ(simulate_recorded({model, *cart::policy(), task, kKey}, Theta.col(0), 1).returns(0), after.returns(0));
   task.episode_reward = nullptr;
-  simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), 0, after);
+  simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), {}, after);
   EXPECT_EQ(after.returns, before.returns) << "the next task has none";
   after.copy(0, episode);
   EXPECT_EQ(episode.episode_reward, 0);

@@ -114,7 +114,7 @@ TEST(Limits, EndRecordedEpisodes) {
   task.limits = {above(0, 1e9, "speed")};
   Episodes episodes;
   const cart::Model model;
-  simulate_episodes({model, *cart::policy(), task, kKey}, cart::candidates(1).transpose(), 0, episodes);
+  simulate_episodes({model, *cart::policy(), task, kKey}, cart::candidates(1).transpose(), {}, episodes);
   EXPECT_EQ(episodes.steps, std::vector<Index>{1});
   EXPECT_TRUE(episodes.ended[0]);
 }
@@ -147,7 +147,7 @@ TEST(Limits, SeeActionsBeforeAndTime) {
   task.limits = {simulated.limit()};
   Episodes episodes;
   const cart::Model model;
-  simulate_episodes({model, *cart::policy(), task, kKey}, cart::candidates(1).transpose(), 0, episodes);
+  simulate_episodes({model, *cart::policy(), task, kKey}, cart::candidates(1).transpose(), {}, episodes);
   simulated.expect_all_of_a_step(task);
   task.limits = {executed.limit()};
   const auto motion = [](const Vector& x, const Vector& u) -> Vector { return x + Vector{{0.1 * u(0), 0.1 * x(0)}}; };

@@ -16,7 +16,7 @@ TEST(Lockstep, ATapeChangesNothingAndSaysWhoEarned) {
   const Matrix Theta = cart::candidates(40).transpose();
   LockstepMemory memory, other;
   Lockstep plain(simulation, 40, memory), taped(simulation, 40, other);
-  for (Lockstep* chunk : {&plain, &taped}) chunk->set_rows(Theta, 3), chunk->start();
+  for (Lockstep* chunk : {&plain, &taped}) chunk->set_rows(Theta, {3}), chunk->start();
   TapedStep tape;
   for (Index t = 0; t < task.horizon; ++t) {
     std::vector<bool> before;
@@ -47,7 +47,7 @@ TEST(Lockstep, DeviatesFromTheMeanAsOftenAsItIsTold) {
     const Simulation simulation{model, *policy, task, cart::kKey, options};
     LockstepMemory memory;
     Lockstep chunk(simulation, 8, memory);
-    chunk.set_rows(Theta, 3), chunk.start(), chunk.step(0);
+    chunk.set_rows(Theta, {3}), chunk.start(), chunk.step(0);
     return chunk.states();
   };
   const Matrix mean = first_step({.sample = false}), once = first_step({.noise_clip = 0}) - mean,

@@ -42,6 +42,16 @@ TEST(SimulateRecorded, AfterAnEarlyEndARowIsNan) {
   EXPECT_TRUE((recorded.rewards.rightCols(1).array() == 0).all()) << "charged when it ended";
 }
 
+TEST(SimulateEpisodes, NumbersStartAgainAfterAPeriod) {
+  const Task task = cart::task();
+  const cart::Model uncertain(0.01);
+  const Matrix Theta = cart::candidates(1).transpose().replicate(4, 1);
+  Episodes episodes;
+  simulate_episodes({uncertain, *cart::policy(), task, kKey}, Theta, {.first = 5, .period = 2}, episodes);
+  EXPECT_EQ(episodes.returns.head(2), episodes.returns.tail(2));
+  EXPECT_NE(episodes.returns(0), episodes.returns(1));
+}
+
 /// Rows that fail at v > 0.5, and that fall at p < 0.8.
 TEST(SimulateEpisodes, RecordsWhatTheReturnsAreMadeOf) {
   Task task = cart::task();
@@ -51,7 +61,7 @@ TEST(SimulateEpisodes, RecordsWhatTheReturnsAreMadeOf) {
     if (falls) task.ended = each_state([](const ConstVectorView& x) { return x(1) < 0.8; });
     const Simulated simulated = simulate_cart(task, Theta, 1, {}, model, 5);
     Episodes episodes;
-    simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), 5, episodes);
+    simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), {5}, episodes);
     EXPECT_EQ(episodes.returns, simulated.returns.row(0).transpose());
     Index failed = 0, ended = 0, whole = 0;
     for (Index row = 0; row < 40; ++row) {

@@ -231,7 +231,7 @@ TEST(Simulate, WrongSizesAreRefused) {
   EXPECT_THROW(simulate({cart::Model(), *policy, task, kKey}, right, {0, 0}, serial_evaluator()), InvalidInput);
   EXPECT_THROW(simulate_recorded({cart::Model(), *policy, task, kKey}, wrong.col(0), 1), InvalidInput);
   Episodes episodes;
-  EXPECT_THROW(simulate_episodes({cart::Model(), *policy, task, kKey}, right, 0, episodes), InvalidInput);
+  EXPECT_THROW(simulate_episodes({cart::Model(), *policy, task, kKey}, right, {}, episodes), InvalidInput);
 }
 
 /// The cart, whose calls are dear.

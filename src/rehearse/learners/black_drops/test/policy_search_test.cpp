@@ -128,6 +128,32 @@ TEST(SolvingRates, CountSimulatedEpisodesThatSolve) {
             Vector::Zero(1));
 }
 
+TEST(SolvingRates, AskAModelWhoseCallsAreDearForAllPoliciesAtOnce) {
+  prior::Prior prior = slider::prior();
+  Index calls = 0;
+  const auto counted = [&, cheap = prior.simulator](const ConstMatrixView& X, const ConstMatrixView& U,
+                                                    const Vector& phi, MatrixView dX) {
+    ++calls;
+    cheap->change(X, U, phi, dX);
+  };
+  prior.simulator = system::make_simulator(prior.simulator->parameters(), counted, 1000);
+  const dynamics::SimulatorModel dear(prior, slider::kTruth, 0.01), cheap(slider::prior(), slider::kTruth, 0.01);
+  Task task = slider::task();
+  const Vector middle =
+      rollout::simulate_recorded({cheap, *slider::policy(), task, {}, {.sample = false}}, Vector{{-1, 0}}, 1)
+          .states.back()
+          .row(0);
+  task.solved = [&](const Episode& e) { return e.true_states(e.steps(), 0) > middle(0); };
+  const std::vector<Vector> policies = {Vector{{-1, 0}}, Vector{{-5, 0}}, Vector{{-0.1, 0.2}}, Vector{{0, 0}}};
+  const auto rates = [&](const dynamics::DynamicsModel& model) {
+    return solving_rates({model, *slider::policy(), task, serial_evaluator(), {}}, policies, small(), {}).rates;
+  };
+  const Vector expected = rates(cheap);
+  EXPECT_TRUE(0 < expected(0) && expected(0) < 1) << expected(0);
+  EXPECT_EQ(rates(dear), expected);
+  EXPECT_EQ(calls, task.horizon);
+}
+
 // Before there are data a policy must solve the task for doubted priors, too.
 TEST(SolvingRates, GoRoundTheDoubtedModels) {
   const auto near = [](const Vector& phi) {
