@@ -87,8 +87,7 @@ std::vector<Matrix> forecast_particles(const dynamics::DynamicsModel& model, con
   check(episode, journeys);
   const auto starts = static_cast<Index>(journeys.starts.size());
   const Index particles = journeys.particles;
-  const Index rows = rows_of_chunk(starts * particles, kUsualStarts * particles, model.rows_at_once());
-  const Index most = std::max<Index>(1, rows / particles);
+  const Index most = groups_of_chunk(starts, particles, kUsualStarts, model.rows_at_once());
   std::vector<Matrix> arrived(journeys.horizons.size(), Matrix(starts * particles, episode.states.cols()));
   evaluator.for_each((starts + most - 1) / most, [&](Index c) {
     const Index first = c * most, count = std::min(most, starts - first);

@@ -12,6 +12,10 @@ Index rows_of_chunk(Index batch, Index usual, Index rows_at_once) {
   return std::min(batch, std::max(usual, std::min(rows_at_once, std::max((batch + 1) / 2, rows_at_once / 4))));
 }
 
+Index groups_of_chunk(Index groups, Index rows, Index usual, Index rows_at_once) {
+  return std::max<Index>(1, rows_of_chunk(groups * rows, usual * rows, rows_at_once) / rows);
+}
+
 std::vector<std::string> misfits(const policy::Policy& policy, Index parameters, const Task& task) {
   std::vector<std::string> lines;
   if (parameters != policy.parameters())

@@ -55,6 +55,9 @@ struct Numbering {
 /// that make up for a call are all there are.
 Index rows_of_chunk(Index batch, Index usual, Index rows_at_once);
 
+/// The same for groups of `rows` rows that stay together: the groups of a chunk, at least one.
+Index groups_of_chunk(Index groups, Index rows, Index usual, Index rows_at_once);
+
 /// A line for each way in which θ of so many numbers, a policy and a task do not fit together.
 std::vector<std::string> misfits(const policy::Policy& policy, Index parameters, const Task& task);
 

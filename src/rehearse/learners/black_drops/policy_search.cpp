@@ -178,8 +178,7 @@ SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vecto
       solved[j] += problem.task.solved(episode);
     }
   };
-  const Index rows = rollout::rows_of_chunk(rollouts * all.rates.size(), rollouts, problem.model.rows_at_once());
-  const Index most = std::max<Index>(1, rows / rollouts);  // policies of a chunk
+  const Index most = rollout::groups_of_chunk(all.rates.size(), rollouts, 1, problem.model.rows_at_once());
   problem.evaluator.for_each((all.rates.size() + most - 1) / most, [&](Index c) {
     const Index first = c * most, last = std::min(first + most, all.rates.size());
     if (models == 0) simulate(problem.model, rollouts, key, first, last);

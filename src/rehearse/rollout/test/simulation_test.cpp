@@ -30,6 +30,10 @@ TEST(RowsOfChunk, AreMoreWhereCallsAreDear) {
   EXPECT_EQ(rows_of_chunk(1000, 64, 10000), 1000);
   EXPECT_EQ(rows_of_chunk(1000, 64, 2000), 500);
   EXPECT_EQ(rows_of_chunk(1000, 64, 100), 100);
+  EXPECT_EQ(groups_of_chunk(100, 5, 4, 0), 4);
+  EXPECT_EQ(groups_of_chunk(100, 5, 4, 102), 20);
+  EXPECT_EQ(groups_of_chunk(100, 500, 1, 100), 1);
+  EXPECT_EQ(groups_of_chunk(0, 5, 4, 100), 1);
 }
 
 TEST(SimulateOptions, AreNamedWithTheirBounds) {
