@@ -18,7 +18,7 @@ thread_local int functions_of_robots = 0;  // in which this thread is
 std::mutex* turn = new std::mutex;
 
 std::unique_lock<std::mutex> wait_for_turn() {
-  if (functions_of_robots > 0) return {};  // it is this thread's
+  if (functions_of_robots > 0) return {};  // called by one of them, which has it, or by an environment
   std::unique_lock mine(*turn, std::defer_lock);
   if (PyGILState_Check() == 0) {
     mine.lock();

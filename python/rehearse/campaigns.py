@@ -37,14 +37,17 @@ class Campaign:
 
     def __init__(self, folder: PathLike, robot: Union[Robot, None] = None) -> None:
         self.folder = Path(path_of("folder", folder)).absolute()
-        if not any((self.folder / name).exists() for name in ("summary.json", "campaign.toml")):
+        if not (self._has("summary.json") or self._has("campaign.toml")):
             raise _core.InvalidInput(f"{folder} is not the folder of a campaign")
         self._robot = begun_with(robot)
 
+    def _has(self, name: str) -> bool:
+        return (self.folder / name).exists()
+
     def _table(self, name: str) -> Path:
-        if not (path := self.folder / name).exists():
+        if not self._has(name):
             raise _core.InvalidInput(f"{self.folder} has no tables: the same call without share writes them")
-        return path
+        return self.folder / name
 
     @property
     def trials(self) -> Array:
@@ -104,7 +107,7 @@ class Campaign:
         return plot_campaign(self)
 
     def _repr_html_(self) -> str:
-        if not (self.folder / "summary.json").exists():
+        if not self._has("summary.json"):
             return f"<pre>{escape(repr(self))}</pre>"
         summary, groups, claims = self.summary, self.groups, self.claims
         counts = ", ".join(f"{number} {what}" for what, number in summary["counts"].items() if number or what == "runs")
@@ -120,7 +123,7 @@ class Campaign:
         return "".join(parts)
 
     def __repr__(self) -> str:
-        if not (self.folder / "summary.json").exists():
+        if not self._has("summary.json"):
             return f"<rehearse.Campaign {self.folder}: without tables>"
         counts = self.summary["counts"]
         failed = f", {counts['failed']} failed" if counts["failed"] else ""
@@ -142,8 +145,9 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
     that a file's `scenario` names, where it is an object. out: by default runs/NAME of a file, runs/ROBOT-campaign.
     threads: 0 are all cores; as many runs go at once, any number gives the same bytes, which are those of the command
     line. share: "3/20" does every 20th run, from the third on, beside other processes with the other numbers
-    (docs/cluster.md); the same call without it writes the tables. An environment that is given as an object, not as a function that makes one, and a class with `end`, which is a
-    real robot, are used by one run at a time. progress: function(event), see `show`.
+    (docs/cluster.md); the same call without it writes the tables. An environment that is given as an object, not as a
+    function that makes one, and a class with `end`, which is a real robot, are used by one run at a time. progress:
+    function(event), see `show`.
 
     A run that fails is recorded, and does not stop the others. Ctrl-C stops it, and the same call goes on; finished runs
     are not repeated. So does an exception of a function of the robot, which comes out as it is. Raises InvalidInput with
