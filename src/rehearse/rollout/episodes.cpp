@@ -13,6 +13,8 @@ void Episodes::begin(const Task& task, const Matrix& start) {
   steps.assign(rows, 0);
   ended.assign(rows, false);
   failed.assign(rows, false);
+  for (Matrix& at : states) at.resize(start.rows(), start.cols());
+  for (Matrix& at : actions) at.resize(start.rows(), task.action_size());
   states.front() = start;
 }
 

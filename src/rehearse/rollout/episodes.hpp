@@ -6,7 +6,7 @@
 
 namespace rehearse::rollout {
 
-/// Simulated episodes, one a row of a batch.
+/// Simulated episodes, one a row of a batch. What a row has after its early end is not defined.
 struct Episodes {
   std::vector<Matrix> states;   // T+1 of rows × dx
   std::vector<Matrix> actions;  // T of rows × du

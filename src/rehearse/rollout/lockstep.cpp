@@ -1,6 +1,8 @@
 #include "rehearse/rollout/lockstep.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "rehearse/rollout/step_slopes.hpp"
 
@@ -9,15 +11,23 @@ namespace rehearse::rollout {
 Lockstep::Lockstep(const Simulation& of, Index rows, LockstepMemory& memory)
     : model_(of.model), policy_(of.policy), task_(of.task), key_(of.key), options_(of.options), m_(memory) {
   m_.Theta.resize(rows, policy_.parameters());
-  for (Matrix* states : {&m_.X, &m_.seen, &m_.next, &m_.noise}) states->resize(rows, task_.state_size());
+  m_.X.resize(rows, task_.state_size());
+  if (remembers_actions()) m_.U_before.setZero(rows, task_.action_size());
+  resize(rows);
+  m_.broken.setZero(rows, m_.holds.cols());
+  m_.returns.setZero(rows);
+  m_.places.resize(static_cast<std::size_t>(rows));
+  std::iota(m_.places.begin(), m_.places.end(), 0);
+}
+
+/// What a step computes for each row.
+void Lockstep::resize(Index rows) {
+  for (Matrix* states : {&m_.seen, &m_.next, &m_.noise}) states->resize(rows, task_.state_size());
   m_.U.resize(rows, task_.action_size());
   m_.reward.resize(rows);
   if (task_.cost) m_.cost.resize(rows);
-  if (remembers_actions()) m_.U_before.setZero(rows, task_.action_size());
   m_.holds.resize(rows, static_cast<Index>(task_.limits.size()));
-  m_.broken.setZero(rows, m_.holds.cols());
   m_.ended.setZero(rows);
-  m_.returns.setZero(rows);
   m_.candidates.resize(static_cast<std::size_t>(rows));
   m_.particles.resize(static_cast<std::size_t>(rows));
   m_.alive.assign(static_cast<std::size_t>(rows), true);
@@ -78,6 +88,26 @@ void Lockstep::step(Index t, Episodes* record, TapedStep* tape) {
   m_.X.swap(m_.next);
 }
 
+bool Lockstep::drop_ended() {
+  const Index rows = m_.X.rows(), alive_rows = std::ranges::count_if(m_.alive, [](char is) { return is != 0; });
+  if (8 * (rows - alive_rows) < rows) return true;
+  m_.alive_rows.clear();
+  for (Index row = 0; row < rows; ++row)
+    if (alive(row)) m_.alive_rows.push_back(row);
+  const auto keep = [&](Matrix& of_rows) {
+    m_.kept = of_rows(m_.alive_rows, Eigen::all);
+    of_rows.swap(m_.kept);
+  };
+  keep(m_.Theta), keep(m_.X);
+  if (remembers_actions()) keep(m_.U_before);
+  for (std::size_t to = 0; to < m_.alive_rows.size(); ++to) {
+    const auto from = static_cast<std::size_t>(m_.alive_rows[to]);
+    m_.candidates[to] = m_.candidates[from], m_.particles[to] = m_.particles[from], m_.places[to] = m_.places[from];
+  }
+  resize(alive_rows);
+  return alive_rows > 0;
+}
+
 /// The states that the policy sees, with measurement noise.
 const Matrix& Lockstep::measured(Index t) {
   const Vector& std = model_.measurement_std();
@@ -131,12 +161,14 @@ void Lockstep::move(Index t, TapedStep& tape) {
 }
 
 void Lockstep::write(Index t, Episodes& record) {
-  record.actions[static_cast<std::size_t>(t)] = m_.U;
-  record.states[static_cast<std::size_t>(t + 1)] = m_.next;
-  record.rewards.col(t) = m_.reward;
+  const auto step = static_cast<std::size_t>(t);
   for (Index row = 0; row < m_.X.rows(); ++row) {
     if (!alive(row)) continue;
-    const auto i = static_cast<std::size_t>(row);
+    const Index place = m_.places[static_cast<std::size_t>(row)];
+    const auto i = static_cast<std::size_t>(place);
+    record.actions[step].row(place) = m_.U.row(row);
+    record.states[step + 1].row(place) = m_.next.row(row);
+    record.rewards(place, t) = m_.reward(row);
     record.failed[i] = !finite(row);
     record.steps[i] += !record.failed[i];
     record.ended[i] = !record.failed[i] && (breaks(row) || ended(row));
@@ -149,16 +181,17 @@ bool Lockstep::finite(Index row) const { return m_.next.row(row).allFinite() && 
 void Lockstep::settle(Index row, Index t) {
   auto& alive = m_.alive[static_cast<std::size_t>(row)];
   if (alive) {
+    const Index place = m_.places[static_cast<std::size_t>(row)];
     const auto remaining = static_cast<double>(task_.horizon - t);
     const bool went_on = finite(row);
     const double left = remaining / static_cast<double>(task_.horizon);
-    m_.returns(row) += went_on ? m_.reward(row) : remaining * task_.reward_floor;
+    m_.returns(place) += went_on ? m_.reward(row) : remaining * task_.reward_floor;
     failed_ += !went_on;
     alive = went_on;
-    if (!went_on) m_.broken.row(row).setConstant(left);  // what cannot be simulated cannot be judged
+    if (!went_on) m_.broken.row(place).setConstant(left);  // what cannot be simulated cannot be judged
     if (went_on && (breaks(row) || ended(row))) {
-      m_.broken.row(row) = (m_.holds.row(row).array().abs() > 0).select(m_.broken.row(row), left);
-      m_.returns(row) += (remaining - 1) * task_.reward_floor;
+      m_.broken.row(place) = (m_.holds.row(row).array().abs() > 0).select(m_.broken.row(place), left);
+      m_.returns(place) += (remaining - 1) * task_.reward_floor;
       alive = false;
     }
   }

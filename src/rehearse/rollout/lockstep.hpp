@@ -18,10 +18,11 @@ struct TapedStep {
 
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct LockstepMemory {
-  Matrix Theta, X, seen, next, noise, U, U_before;
+  Matrix Theta, X, seen, next, noise, U, U_before, kept;
   Matrix holds, broken;  // rows × limits
   Vector reward, cost, returns, ended, factor;
   std::vector<std::uint64_t> candidates, particles;
+  std::vector<Index> places, alive_rows;  // where a row's returns are written, and its record
   std::vector<char> alive;
   dynamics::Linearised linearised;
 };
@@ -41,6 +42,10 @@ class Lockstep {
   /// be the model's mean and so many deviations of each state by itself, which servos' draws are not.
   void step(Index t, Episodes* record = nullptr, TapedStep* tape = nullptr);
 
+  /// Goes on with the rows that are alive alone, once an eighth has ended; false: none is alive. Rows keep their places
+  /// in returns(), broken() and records, while states() and alive() have fewer. Not for tapes, which want all rows.
+  bool drop_ended();
+
   const Matrix& states() const { return m_.X; }
   const Vector& returns() const { return m_.returns; }
   const Matrix& broken() const { return m_.broken; }
@@ -48,6 +53,7 @@ class Lockstep {
   Index failed() const { return failed_; }
 
  private:
+  void resize(Index rows);
   const Matrix& measured(Index t);
   void draw(Purpose purpose, Index t);
   void draw_noise(Index t);

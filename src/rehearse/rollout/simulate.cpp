@@ -40,6 +40,7 @@ const Vector& run_steps(Lockstep& chunk, const Task& task, const Evaluator& eval
   for (Index t = 0; t < task.horizon; ++t) {
     evaluator.stop_if_asked();
     chunk.step(t, record);
+    if (!chunk.drop_ended()) break;
   }
   if (!record) return chunk.returns();
   record->finish(task, chunk.returns());
@@ -54,8 +55,7 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
   const Task& task = simulation.task;
   check_simulation(simulation, Theta.rows(), particles);
   const Index total = Theta.cols() * particles;
-  const Index most =
-      rows_of_chunk(total, usual_rows(total), std::max(simulation.model.rows_at_once(), task.rows_at_once));
+  const Index most = rows_of_chunk(total, usual_rows(total), rows_at_once(simulation.model, task));
   const Index chunks = (total + most - 1) / most;
   const auto limits = static_cast<Index>(task.limits.size());
   Matrix results((1 + limits) * most + 1, chunks);  // returns, limits one by one, and how many failed

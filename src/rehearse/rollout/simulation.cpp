@@ -8,6 +8,10 @@
 
 namespace rehearse::rollout {
 
+Index rows_at_once(const dynamics::DynamicsModel& model, const Task& task) {
+  return std::max(model.rows_at_once(), task.rows_at_once);
+}
+
 Index rows_of_chunk(Index batch, Index usual, Index rows_at_once) {
   return std::min(batch, std::max(usual, std::min(rows_at_once, std::max((batch + 1) / 2, rows_at_once / 4))));
 }

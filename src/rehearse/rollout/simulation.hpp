@@ -50,6 +50,9 @@ struct Numbering {
   Index period = 0;
 };
 
+/// The rows that a step should have to be worth the calls of a model and of a task's functions.
+Index rows_at_once(const dynamics::DynamicsModel& model, const Task& task);
+
 /// The rows of a chunk that goes in lockstep, by the size of the batch alone: `usual`, or more where a model is dear to
 /// call (system::Simulator::rows_at_once): it is called twice a step, for two threads, unless a quarter of the rows
 /// that make up for a call are all there are.

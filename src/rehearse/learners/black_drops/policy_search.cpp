@@ -178,7 +178,8 @@ SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vecto
       solved[j] += problem.task.solved(episode);
     }
   };
-  const Index most = rollout::groups_of_chunk(all.rates.size(), rollouts, 1, problem.model.rows_at_once());
+  const Index most =
+      rollout::groups_of_chunk(all.rates.size(), rollouts, 1, rollout::rows_at_once(problem.model, problem.task));
   problem.evaluator.for_each((all.rates.size() + most - 1) / most, [&](Index c) {
     const Index first = c * most, last = std::min(first + most, all.rates.size());
     if (models == 0) simulate(problem.model, rollouts, key, first, last);

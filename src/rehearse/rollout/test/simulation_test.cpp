@@ -24,6 +24,14 @@ TEST(CheckSimulation, RefusesPartsThatDoNotFit) {
   EXPECT_EQ(refusal(parameters, 1), "the policy 'mlp' has 1 actions, must have the 2 of the task");
 }
 
+TEST(RowsAtOnce, AreThoseOfTheDearer) {
+  Task task = cart::task();
+  const cart::Model model;
+  EXPECT_EQ(rows_at_once(model, task), 0);
+  task.rows_at_once = 7;
+  EXPECT_EQ(rows_at_once(model, task), 7);
+}
+
 TEST(RowsOfChunk, AreMoreWhereCallsAreDear) {
   EXPECT_EQ(rows_of_chunk(1000, 64, 0), 64);
   EXPECT_EQ(rows_of_chunk(10, 64, 0), 10);
