@@ -50,11 +50,11 @@ std::string without_prediction(const Task& task, const Matrix& X, const Matrix& 
                      fmt::join(values, ", "));
 }
 
-std::string worse_than_nothing(const Task& task, const Vector& errors, const Vector& changes) {
+std::string worse_than_nothing(const Task& task, const Vector& errors, const Vector& as_next, const Vector& changes) {
   constexpr double kClearly = 1.5;  // noise of measurements is in both, and priors that are far off are mended
   constexpr std::size_t kMost = 4;
-  if ((errors.array() > changes.array()).all())
-    return "it errs by more than a step changes each state: does it give changes of state, not the next one?";
+  if ((errors.array() > changes.array()).all() && (errors.array() > as_next.array()).all())
+    return "its answers are nearer to the states that a step reaches than to their changes: it must give changes";
   std::vector<std::string> names;
   for (Index s = 0; s < errors.size(); ++s)
     if (errors(s) > kClearly * changes(s)) names.push_back(task.states[static_cast<std::size_t>(s)].name);

@@ -23,7 +23,8 @@ std::string difference(const Task& task, const Matrix& distances, const Vector& 
 std::string without_prediction(const Task& task, const Matrix& X, const Matrix& U, const Matrix& predicted);
 
 /// The states of which a prior knows less than that nothing changes, for people: root mean square errors of a step that
-/// are larger than what the step changes. Empty: there are none.
-std::string worse_than_nothing(const Task& task, const Vector& errors, const Vector& changes);
+/// are larger than what the step changes. as_next: those errors, if its answers were states reached instead of changes.
+/// Empty: there are none.
+std::string worse_than_nothing(const Task& task, const Vector& errors, const Vector& as_next, const Vector& changes);
 
 }  // namespace rehearse::check

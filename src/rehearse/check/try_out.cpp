@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/check/differences.hpp"
+#include "rehearse/check/input_scales.hpp"
 #include "rehearse/check/row_laws.hpp"
 #include "rehearse/check/task_answers.hpp"
 #include "rehearse/check/whole_turns.hpp"
@@ -91,6 +92,7 @@ std::vector<std::string> hopeless_limits(const Task& task, const std::vector<Epi
 
 /// The number with two digits, or less.
 double rounded_down(double number) {
+  if (number == 0) return 0;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(number))) - 1);
   return unit * std::floor(number / unit);
 }
@@ -117,6 +119,16 @@ void count_ends(const Task& task, const std::vector<Episode>& episodes, Tried& t
     tried.ended += episode.ended && episode.broken_limits.empty() && episode.failure.empty();
     if (!episode.failure.empty()) tried.notes.push_back("an episode of random actions ended: " + episode.failure);
   }
+}
+
+/// A line where the plant ends episodes that the task would not; empty: it does not.
+std::string unknown_ends(const Task& task, const Tried& tried) {
+  if (task.ended || tried.ended == 0) return {};
+  return fmt::format(
+      "the plant itself ended {} of {} episodes, which no simulated episode knows: say when it ends by `ended`, or by "
+      "a "
+      "limit",
+      tried.ended, tried.episodes);
 }
 
 /// The faults of the task itself, where it starts.
@@ -164,11 +176,13 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
   const Dataset& steps = driven.steps;
   tried.steps = steps.size();
   count_ends(task, driven.episodes, tried);
+  if (const std::string line = unknown_ends(task, tried); !line.empty()) tried.notes.push_back(line);
   append(tried.broken, hopeless_limits(task, driven.episodes));
   if (const std::string line = why_falls_pay(task, steps.rewards); !line.empty()) tried.notes.push_back(line);
   append(tried.notes, where_turns_count(task, seed));
   if (steps.size() == 0) return tried;
   tried.change = statistics::root_mean_squares(steps.changes);
+  if (scenario.policy) append(tried.notes, notes_on_scales(task, *scenario.policy, steps.states));
   append(tried.notes, recording::notes_on_rates(task, steps.states, steps.states + steps.changes));
   append(tried.broken, broken_row_laws(task, steps.states, steps.actions, steps.changes));
   if (steps.changes.isZero(0))

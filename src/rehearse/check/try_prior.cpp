@@ -126,7 +126,9 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
         fmt::format("answers differ in their last digits when they are asked for again ({}), so runs "
                     "repeat about as far; NumPy needs contiguous columns, np.asfortranarray(states)",
                     rounded));
-  const std::string worse = worse_than_nothing(task, tried.error, statistics::root_mean_squares(steps.changes));
+  const Matrix as_next = predicted - steps.states - steps.changes;
+  const std::string worse = worse_than_nothing(task, tried.error, statistics::root_mean_squares(as_next),
+                                               statistics::root_mean_squares(steps.changes));
   if (!worse.empty()) tried.notes.push_back(worse);
   tried.idle = idle_parameters(prior, steps, wide, predicted);
   return tried;

@@ -27,8 +27,8 @@ class Evaluator {
 /// The evaluator that runs one task after the other, on the calling thread.
 const Evaluator& serial_evaluator();
 
-/// The same evaluator, which calls `stop` before each task; once it returns true, Interrupted is thrown. stop: called
-/// on any thread.
+/// The same evaluator, which calls `stop` before each task; once it returns true, Interrupted (events.hpp) is thrown.
+/// stop: called on any thread.
 std::shared_ptr<const Evaluator> make_stoppable(std::shared_ptr<const Evaluator> evaluator, std::function<bool()> stop);
 
 /// An evaluator that runs tasks on `threads` threads (≥ 1) of oneTBB; 0 means all cores.

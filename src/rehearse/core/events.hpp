@@ -19,7 +19,7 @@ struct Progress {
 /// Receives progress on the learner's own thread; may throw Interrupted to stop at a safe point. Empty: nobody listens.
 using ProgressSink = std::function<void(const Progress&)>;
 
-/// Thrown out of a learner when its user asked to stop; everything told so far is kept.
+/// Thrown out of a learner when its user asked to stop; everything told so far is kept. It is no std::exception.
 struct Interrupted {};
 
 }  // namespace rehearse

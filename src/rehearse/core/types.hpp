@@ -13,7 +13,8 @@ using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// Views of blocks whose columns are contiguous (a Matrix, or some of its rows or columns).
+/// Views of blocks whose columns are contiguous (a Matrix, or some of its rows or columns). Assigning to one does not
+/// change its size; Eigen checks that without NDEBUG alone.
 using MatrixView = Eigen::Ref<Matrix, 0, Eigen::OuterStride<>>;
 using ConstMatrixView = Eigen::Ref<const Matrix, 0, Eigen::OuterStride<>>;
 using VectorView = Eigen::Ref<Vector>;

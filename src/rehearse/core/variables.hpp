@@ -11,9 +11,9 @@ struct StateVariable {
   std::string name;
   std::string unit;
   StateKind kind = StateKind::plain;
-  std::string rate;    // name of the state that is its derivative by time; empty: none is
-  std::string parent;  // of an angle: name of the angle of the link that carries this one, both measured from one
-                       // direction; empty: none does
+  std::string rate = {};    // name of the state that is its derivative by time; empty: none is
+  std::string parent = {};  // of an angle: name of the angle of the link that carries this one, both measured from one
+                            // direction; empty: none does
 };
 
 /// The actuator between the action that a policy wants and the one that moves the robot (actuators.hpp).
@@ -31,9 +31,10 @@ struct ActionVariable {
   std::string name;  // of no state
   std::string unit;
   Interval bounds;
-  std::string target_of;   // name of the state that it commands (a servo's angle): models see its distance from that
-                           // state; empty: none
-  std::string servo_type;  // of the servo whose target it is: those of the same type are alike; empty: like no other
+  std::string target_of = {};  // name of the state that it commands (a servo's angle): models see its distance from
+                               // that state; empty: none
+  std::string servo_type =
+      {};  // of the servo whose target it is: those of the same type are alike; empty: like no other
   Actuation actuation = {};
 };
 

@@ -15,7 +15,7 @@ namespace rehearse::experiment {
 /// A trial that is to come.
 struct AskResult {
   Resolved resolved;
-  TrialRecord trial;             // what is known before it
+  TrialRecord trial;             // what is known before it; `theta` is θ of policy_of(trial, resolved.scenario)
   std::filesystem::path folder;  // of the policy's files
 };
 

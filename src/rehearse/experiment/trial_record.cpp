@@ -66,9 +66,10 @@ TrialRecord record_before(Index trial, const learners::Proposal& proposal, const
     record.notes.push_back(
         fmt::format("{} training rows left out: a change, or the prior's prediction of it, was not finite",
                     proposal.left_out_rows));
-  if (2 * proposal.failed_rollouts > proposal.rollouts)
-    record.notes.push_back(fmt::format("{} of {} rollouts failed: the model's predictions were not finite",
-                                       proposal.failed_rollouts, proposal.rollouts));
+  if (10 * proposal.failed_rollouts > proposal.rollouts)
+    record.notes.push_back(fmt::format("{} of {} rollouts failed: {}", proposal.failed_rollouts, proposal.rollouts,
+                                       proposal.failed_row.empty() ? "the model's predictions were not finite"
+                                                                   : "the prior fails " + proposal.failed_row));
   if (proposal.posterior && !record.phi.empty())
     add_posterior(record, *proposal.posterior, tunable_names(resolved.prior));
   return record;
@@ -78,6 +79,11 @@ void add_outcome(TrialRecord& record, const Episode& episode, const Task& task) 
   record.total_reward = episode.total_reward();
   for (LimitRecord& limit : record.limits) limit.broken = std::ranges::count(episode.broken_limits, limit.limit) > 0;
   if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
+  if (episode.ended && episode.failure.empty() && episode.broken_limits.empty() && !task.ended)
+    record.notes.push_back(fmt::format(
+        "the robot itself ended the episode in step {}, which no simulated episode knows: say when it ends by `ended`, "
+        "or by a limit",
+        episode.steps()));
   record.cut_short = episode.is_cut_short(task.horizon);
   if (task.solved && !record.cut_short) record.solved = task.solved(episode);
 }

@@ -39,6 +39,7 @@ struct Proposal {
   std::vector<LimitRisk> risks;        // of the task's limits, in their order; empty: nothing was simulated for them
   Index rollouts = 0;                  // simulated to choose this policy
   Index failed_rollouts = 0;           // of these, ended by a failed simulation
+  std::string failed_row;              // the prior could not simulate, and why; empty: it could, or is not asked
   std::optional<double> log_evidence;  // of the data under the model
   std::optional<Vector> phi;           // of the prior, in the order of its space
   std::optional<identification::PhiPosterior> posterior;  // of its continuous parameters, where it was learned
@@ -88,6 +89,7 @@ struct Setting {
 class Learner {
  public:
   virtual ~Learner() = default;
+  /// What is returned lives until `tell`, `load` or the learner's end: copy what is needed longer.
   virtual const Proposal& ask() = 0;
   /// Does what `ask` does, for a caller who has kept the same proposal. Learners whose search takes long leave it out:
   /// policy, θ and model of what is returned are those of `ask`, other fields may be empty.

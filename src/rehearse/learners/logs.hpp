@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rehearse/core/episode.hpp"
+#include "rehearse/core/task.hpp"
 
 namespace rehearse::learners {
 
@@ -14,7 +15,7 @@ class Logs {
  public:
   static constexpr Index kMost = 400;
 
-  void add(const std::vector<Episode>& logs, double dt_s);
+  void add(const std::vector<Episode>& logs, const Task& task);  // throws InvalidInput where one does not fit it
   const Dataset& rows() const { return rows_; }
 
   /// How many steps are learned from; empty: all are.

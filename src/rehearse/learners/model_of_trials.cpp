@@ -16,7 +16,7 @@ ModelOfTrials::ModelOfTrials(const Setting& setting, identification::Kind kind, 
     : setting_(setting), kind_(std::move(kind)), prior_variance_(prior_variance) {}
 
 void ModelOfTrials::study(const std::vector<Episode>& logs) {
-  logs_.add(logs, setting_.task.dt_s);
+  logs_.add(logs, setting_.task);
   data_ = logs_.rows();
 }
 

@@ -2,6 +2,10 @@
 
 #include <cctype>
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::policy {
 
 Exported make_exported(const Origin& origin, const Task& task, const Policy& policy, const Vector& theta,
@@ -23,6 +27,11 @@ Exported with_theta(Exported exported, const Policy& policy, const Vector& theta
   exported.description = describe(policy, theta);
   exported.theta = theta;
   Answers& answers = exported.answers;
+  const auto states = static_cast<Index>(exported.states.size());
+  if (answers.states.cols() != states || answers.times_s.size() != answers.states.rows())
+    throw InvalidInput(
+        fmt::format("the states to ask the policy about are {} × {}, at {} times; must be n × {}, at n times",
+                    answers.states.rows(), answers.states.cols(), answers.times_s.size(), states));
   answers.actions.resize(answers.states.rows(), policy.actions());
   const Matrix Theta = theta.transpose();
   for (Index i = 0; i < answers.states.rows(); ++i)

@@ -39,7 +39,8 @@ struct Exported {
   Answers answers;
 };
 
-/// states: n × dx, which the policy is asked about at `times_s` (n). Throws InvalidInput as `describe` does.
+/// states: n × dx, which the policy is asked about at `times_s` (n). Throws InvalidInput as `describe` does, and where
+/// they are of other sizes.
 Exported make_exported(const Origin& origin, const Task& task, const Policy& policy, const Vector& theta,
                        const Answers& asked);
 

@@ -63,8 +63,8 @@ std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double
 }
 
 Vector random_schedule(const Task& task, RandomActions actions, double hold_s, StreamKey key) {
-  const auto hold =
-      static_cast<Index>(std::lround(std::clamp(hold_s / task.dt_s, 1.0, static_cast<double>(task.horizon))));
+  const double longest = std::max(1.0, static_cast<double>(task.horizon / 5));  // one constant action shows little
+  const auto hold = static_cast<Index>(std::lround(std::clamp(hold_s / task.dt_s, 1.0, longest)));
   key.purpose = Purpose::random_policy;
   Rng rng(key);
   Vector theta(task.horizon * task.action_size());

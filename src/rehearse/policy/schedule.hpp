@@ -29,7 +29,7 @@ enum class RandomActions {
 };
 
 /// θ of such a policy for the task's whole horizon: random actions, each held for `hold_s` (rounded to whole steps, at
-/// least one). Random numbers come from the whole key.
+/// least one, and at most to a fifth of the episode). Random numbers come from the whole key.
 Vector random_schedule(const Task& task, RandomActions actions, double hold_s, StreamKey key);
 
 }  // namespace rehearse::policy

@@ -16,9 +16,10 @@ struct Prior {
   ParameterSpace space;  // the simulator's parameters, with the values to start from
   std::shared_ptr<const system::Simulator> driven = nullptr;  // for models that know where servos get to
                                                               // (scenario::NamedPrior); null: the simulator does
+  std::shared_ptr<system::FirstFault> fault = nullptr;        // is told of rows that fail; null: nobody is
 
   /// The driven simulator in the place of the simulator.
-  Prior behind_servos() const { return {name, driven ? driven : simulator, space}; }
+  Prior behind_servos() const { return {name, driven ? driven : simulator, space, nullptr, fault}; }
 
   /// The simulator of the robot's own states, by what moves it.
   Prior behind_actuators() const {
@@ -26,12 +27,12 @@ struct Prior {
       const auto robot = of ? of->behind_actuators() : nullptr;
       return robot ? robot : of;
     };
-    return {name, robot_of(simulator), space, robot_of(driven)};
+    return {name, robot_of(simulator), space, robot_of(driven), fault};
   }
 
   /// Expected state changes (n × dx), contained: rows that fail are NaN. Returns how many failed.
   Index mean(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
-    return system::change_contained(*simulator, X, U, phi, dX);
+    return system::change_contained(*simulator, X, U, phi, dX, fault.get());
   }
 };
 

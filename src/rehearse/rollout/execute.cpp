@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/episode_fit.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/rollout/episodes.hpp"
 #include "rehearse/rollout/simulation.hpp"
@@ -22,6 +23,20 @@ Vector checked(Vector state, const Task& task, Index step) {
       throw std::runtime_error(fmt::format("the plant's state at step {} has {} = {}, must be finite", step,
                                            task.states[static_cast<std::size_t>(i)].name, state(i)));
   return state;
+}
+
+/// The reason why actions must not reach the plant; empty: they may. Rounding is allowed.
+std::string unfit(const Matrix& u, const Task& task, Index step) {
+  if (!u.allFinite()) return fmt::format("an action at step {} is not finite", step);
+  for (Index i = 0; i < u.cols(); ++i) {
+    const ActionVariable& action = task.actions[static_cast<std::size_t>(i)];
+    const auto [low, high] = action.bounds;
+    const double rounding = 1e-9 * (high - low);
+    if (u(0, i) < low - rounding || u(0, i) > high + rounding)
+      return fmt::format("the policy's action {} at step {} is {:g}, must be in {:g} to {:g}", action.name, step,
+                         u(0, i), low, high);
+  }
+  return {};
 }
 
 void record_state(Episode& episode, Index row, const Vector& measured, const system::Plant& plant) {
@@ -108,8 +123,8 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
     if (before_step) before_step();
     policy.act(Theta, episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
     actuators.command(episode.states.middleRows(t, 1), u);
-    if (!u.allFinite()) {
-      end(episode, t, task, fmt::format("an action at step {} is not finite", t));
+    if (std::string why = unfit(u, task, t); !why.empty()) {
+      end(episode, t, task, std::move(why));
       break;
     }
     episode.actions.row(t) = u;
@@ -144,7 +159,9 @@ Episode execute(const SimulatedRobot& robot, const policy::Policy& policy, const
 }
 
 Episode judged(Episode episode, const Task& task) {
-  episode.rewards.resize(episode.steps());
+  if (episode.true_states.size() == 0) episode.true_states = episode.states;
+  episode.rewards.setZero(episode.steps());
+  require_fit(episode, task);
   for (Index t = 0, steps = episode.steps(); t < steps; ++t)
     if (ends_at(episode, t, task)) break;
   earn_at_end(episode, task);
@@ -167,6 +184,8 @@ std::vector<std::string> limits_broken_by(const Task& task, const Episode& episo
 
 Episode as_measured(Episode episode, const Task& task) {
   episode.true_states = episode.states;
+  episode.rewards.setZero(episode.steps());
+  require_fit(episode, task);
   for (Index t = 0; t < episode.steps(); ++t) earn(episode, t, task);
   if (task.episode_reward) episode.episode_reward = episode_reward_of(task, episode);
   return episode;

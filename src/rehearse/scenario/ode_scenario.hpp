@@ -16,10 +16,10 @@ namespace rehearse::scenario {
 
 /// Options of every such scenario.
 struct OdeOptions {
-  double start_noise = 0;                     // std of every state at the start
-  double measurement_noise = 0;               // std of every measured state
-  std::vector<Parameter> measurement_noises;  // instead, one a state, with its name; empty: as above
-  double box_low = 0.05;                      // of the parameters that may be tuned
+  double start_noise = 0;                          // std of every state at the start
+  double measurement_noise = 0;                    // std of every measured state
+  std::vector<Parameter> measurement_noises = {};  // instead, one a state, with its name; empty: as above
+  double box_low = 0.05;                           // of the parameters that may be tuned
   double box_high = 1.2;
   Index substeps = 20;              // of priors and oracle in a control step
   double initial_reward_width = 0;  // of the guess that stands in for a reward still to be learned; 0: none
@@ -49,7 +49,7 @@ struct OdeScenario {
   ParameterSpace plant;  // all fixed, at the truth
   std::vector<Guess> guesses;
   Vector policy_scale;  // what the policy's inputs are divided by, one a feature
-  std::optional<Drawing> drawing;
+  std::optional<Drawing> drawing = {};
 };
 Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options);
 

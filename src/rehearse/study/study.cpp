@@ -82,8 +82,9 @@ class Student {
       if (log.episode.steps() < least)
         lines.push_back(
             fmt::format("{}: {} control steps, must be at least the {} that parameters are fitted to "
-                        "(fit_horizon_s)",
-                        log.name, log.episode.steps(), least));
+                        "(--set fit_horizon_s={:.2g} would do)",
+                        log.name, log.episode.steps(), least,
+                        seconds(std::max<Index>(1, log.episode.steps() / 2), problem_.task.dt_s)));
     if (logs_.size() - lines.size() < 2 && !lines.empty()) throw InvalidInput(lines);
   }
 
@@ -141,7 +142,6 @@ class Student {
     }
     study_.without = std::move(left.models);
     study_.left_out_logs = std::move(left.tested);
-    for (const std::string& name : study_.left_out_logs.logs) study_.left_out.push_back(name);
   }
 
   /// out: −1: none is left out.

@@ -14,16 +14,29 @@ namespace {
 /// The largest state change; beyond it a simulator has diverged.
 constexpr double kLargestChange = 1e12;
 
-Index blank_failed_rows(MatrixView dX) {
-  Index failed = 0;
-  for (Index i = 0; i < dX.rows(); ++i) {
-    bool usable = true;
-    for (Index c = 0; c < dX.cols(); ++c) usable = usable && std::abs(dX(i, c)) < kLargestChange;  // false for NaN
-    if (usable) continue;
-    dX.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-    ++failed;
+bool is_usable(const ConstMatrixView& dX, Index row) {
+  bool usable = true;
+  for (Index c = 0; c < dX.cols(); ++c) usable = usable && std::abs(dX(row, c)) < kLargestChange;  // false for NaN
+  return usable;
+}
+
+/// The reason why a row alone fails, which it writes; Unavailable and std::bad_alloc go on.
+std::string change_row(const Simulator& simulator, const ConstMatrixView& x, const ConstMatrixView& u,
+                       const Vector& phi, MatrixView dx) {
+  std::string why = "it threw something that says nothing";
+  try {
+    simulator.change(x, u, phi, dx);
+    return {};
+  } catch (const Unavailable&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    why = error.what();
+  } catch (...) {
   }
-  return failed;
+  dx.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return why;
 }
 
 class FunctionSimulator final : public Simulator {
@@ -61,8 +74,9 @@ std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Chang
 }
 
 Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
-                       const Vector& phi, MatrixView dX) {
+                       const Vector& phi, MatrixView dX, FirstFault* fault) {
   check_sizes(simulator, X, U, phi, dX);
+  bool one_by_one = false;
   try {
     simulator.change(X, U, phi, dX);
   } catch (const Unavailable&) {
@@ -70,19 +84,18 @@ Index change_contained(const Simulator& simulator, const ConstMatrixView& X, con
   } catch (const std::bad_alloc&) {
     throw;
   } catch (...) {
-    for (Index i = 0; i < X.rows(); ++i) {
-      try {
-        simulator.change(X.middleRows(i, 1), U.middleRows(i, 1), phi, dX.middleRows(i, 1));
-      } catch (const Unavailable&) {
-        throw;
-      } catch (const std::bad_alloc&) {
-        throw;
-      } catch (...) {
-        dX.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-      }
-    }
+    one_by_one = true;
   }
-  return blank_failed_rows(dX);
+  Index failed = 0;
+  for (Index i = 0; i < X.rows(); ++i) {
+    std::string why;
+    if (one_by_one) why = change_row(simulator, X.middleRows(i, 1), U.middleRows(i, 1), phi, dX.middleRows(i, 1));
+    if (is_usable(dX, i)) continue;
+    dX.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    ++failed;
+    if (fault) fault->add(X.row(i).transpose(), U.row(i).transpose(), why);
+  }
+  return failed;
 }
 
 }  // namespace rehearse::system

@@ -6,6 +6,7 @@
 
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/core/types.hpp"
+#include "rehearse/system/first_fault.hpp"
 
 namespace rehearse::system {
 
@@ -51,8 +52,8 @@ std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Chang
 
 /// Contains a hostile simulator: if the batch, of the right sizes, throws it is retried row by row, and rows that throw
 /// again, or are not finite, come back as NaN. Unavailable and std::bad_alloc go on to the caller. Returns how many
-/// rows failed.
+/// rows failed, and tells `fault`, if there is one, of them.
 Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
-                       const Vector& phi, MatrixView dX);
+                       const Vector& phi, MatrixView dX, FirstFault* fault = nullptr);
 
 }  // namespace rehearse::system

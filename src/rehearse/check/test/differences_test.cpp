@@ -49,11 +49,12 @@ TEST(Differences, NameTheFirstRowWithoutAPrediction) {
 
 TEST(Differences, OfAPriorThatKnowsLessThanThatNothingChangesAreSaid) {
   const Task task = task_of({"rate", "angle"});
-  EXPECT_EQ(worse_than_nothing(task, Vector{{0.1, 0.1}}, Vector{{0.2, 0.09}}), "") << "noise may be all of it";
-  EXPECT_EQ(worse_than_nothing(task, Vector{{0.1, 0.15}}, Vector{{0.2, 0.09}}),
+  EXPECT_EQ(worse_than_nothing(task, Vector{{0.1, 0.1}}, Vector{{0, 0}}, Vector{{0.2, 0.09}}), "")
+      << "noise may be all of it";
+  EXPECT_EQ(worse_than_nothing(task, Vector{{0.1, 0.15}}, Vector{{0, 0}}, Vector{{0.2, 0.09}}),
             "it errs by more than a step changes angle: a sign, a unit, a delay, or what it lacks");
-  EXPECT_EQ(worse_than_nothing(task, Vector{{0.3, 0.1}}, Vector{{0.2, 0.09}}),
-            "it errs by more than a step changes each state: does it give changes of state, not the next one?");
+  EXPECT_EQ(worse_than_nothing(task, Vector{{0.3, 0.1}}, Vector{{0.1, 0}}, Vector{{0.2, 0.09}}),
+            "its answers are nearer to the states that a step reaches than to their changes: it must give changes");
 }
 
 }  // namespace

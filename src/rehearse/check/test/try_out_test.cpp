@@ -102,6 +102,15 @@ TEST(TryOut, APlantMayEndAnEpisode) {
   const Tried found = try_out(scenario);
   EXPECT_EQ(found.ended, 3);
   EXPECT_EQ(found.steps, 6);
+  const auto unknown = [&](const std::vector<std::string>& notes) {
+    return std::ranges::count(
+        notes,
+        "the plant itself ended 3 of 3 episodes, which no simulated episode knows: say when it ends "
+        "by `ended`, or by a limit");
+  };
+  EXPECT_EQ(unknown(found.notes), 1);
+  scenario.task.ended = each_state([](const ConstVectorView& state) { return state(1) >= 2; });
+  EXPECT_EQ(unknown(try_out(scenario).notes), 0);
 }
 
 TEST(TryOut, CountsEpisodesThatBreakALimitAndNamesOneThatTheStartBreaks) {
@@ -131,6 +140,9 @@ TEST(TryOut, SaysWhereFallingPays) {
   EXPECT_TRUE(tried(negative).notes.empty()) << "nothing ends its episodes";
   EXPECT_TRUE(tried(with_end(with(reward, "formula = \"-1\"\nfloor = -1"))).notes.empty());
   EXPECT_TRUE(tried(with_end(kSwing)).notes.empty());
+  const auto nothing = tried(with_end(with(reward, "formula = \"0\"\nfloor = 1"))).notes;
+  ASSERT_EQ(nothing.size(), 1U);
+  EXPECT_TRUE(nothing.front().ends_with("floor = 0 would be safe")) << nothing.front();
   EXPECT_FALSE(tried(negative + "[[limit]]\nkeep = \"abs(rate) < 100\"\n").notes.empty());
 }
 

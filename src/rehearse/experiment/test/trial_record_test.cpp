@@ -50,13 +50,16 @@ TEST(TrialRecord, NotesSayWhereThePriorFailed) {
   const Resolved resolved = resolve(fake::catalogue(), line_spec(1));
   learners::Proposal proposal;
   proposal.policy = resolved.scenario.policy;
-  proposal.rollouts = 100, proposal.failed_rollouts = 50;
+  proposal.rollouts = 100, proposal.failed_rollouts = 10;
   EXPECT_EQ(record_before(1, proposal, resolved).notes, std::vector<std::string>{});
   proposal.failed_rollouts = 51, proposal.left_out_rows = 19;
   EXPECT_EQ(
       record_before(2, proposal, resolved).notes,
       (std::vector<std::string>{"19 training rows left out: a change, or the prior's prediction of it, was not finite",
                                 "51 of 100 rollouts failed: the model's predictions were not finite"}));
+  proposal.failed_row = "in x = 7 under u = 1: no licence";
+  EXPECT_EQ(record_before(2, proposal, resolved).notes.back(),
+            "51 of 100 rollouts failed: the prior fails in x = 7 under u = 1: no licence");
 }
 
 TEST(TrialRecord, SaysOfEachLimitWhatWasExpectedAndWhatHappened) {
@@ -91,6 +94,22 @@ TEST(TrialRecord, OfALearnerWithoutPriorHasNoModelColumns) {
   EXPECT_EQ(trials[0], "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence");
   EXPECT_TRUE(trials[1].ends_with(",,100,0,")) << trials[1];
   EXPECT_TRUE(fs::is_empty(folder / "predictions"));
+}
+
+TEST(TrialRecord, AnEndThatNoModelKnowsIsSaidInTheNotes) {
+  Resolved resolved = resolve(fake::catalogue(), line_spec(1));
+  learners::Proposal proposal;
+  proposal.policy = resolved.scenario.policy;
+  Episode episode{.states = Matrix::Zero(4, 1), .true_states = Matrix::Zero(4, 1), .actions = Matrix::Zero(3, 1)};
+  episode.rewards = Vector::Zero(3);
+  episode.ended = true;
+  resolved.scenario.task.ended = nullptr;
+  EXPECT_EQ(
+      record_of(1, proposal, episode, resolved).notes,
+      std::vector<std::string>{"the robot itself ended the episode in step 3, which no simulated episode knows: say "
+                               "when it ends by `ended`, or by a limit"});
+  resolved.scenario.task.ended = each_state([](const ConstVectorView&) { return true; });
+  EXPECT_TRUE(record_of(1, proposal, episode, resolved).notes.empty());
 }
 
 TEST(TrialRecord, AnEpisodeThatFailsIsSaidInTheNotes) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "rehearse/core/episode_fit.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/learners/black_drops/exploration.hpp"
@@ -17,6 +18,7 @@
 #include "rehearse/learners/builder.hpp"
 #include "rehearse/learners/json.hpp"
 #include "rehearse/learners/model_of_trials.hpp"
+#include "rehearse/learners/prior_faults.hpp"
 #include "rehearse/learners/start_policy.hpp"
 #include "rehearse/learners/trial_learner.hpp"
 #include "rehearse/policy/by_name.hpp"
@@ -35,7 +37,7 @@ constexpr double kMore = 0.05;                      // gain worth a trial, as a 
 class BlackDrops final : public TrialLearner {
  public:
   BlackDrops(Setting setting, Options options)
-      : setting_(std::move(setting)),
+      : setting_(watched(std::move(setting))),
         options_(std::move(options)),
         features_(setting_.task.feature_map()),
         model_(setting_, options_.model, options_.prior_variance) {
@@ -57,6 +59,7 @@ class BlackDrops final : public TrialLearner {
 
  private:
   void learn(const Proposal& tried, const Episode& episode) override {
+    require_fit(episode, setting_.task);
     const bool explored = tried.policy->name() == policy::kSchedule && !history_.policies.empty();
     const bool hands_over = tried.policy->name() == policy::kHandOver;
     const Vector theta = hands_over ? tried.theta.head(setting_.policy->parameters()) : tried.theta;
@@ -86,6 +89,7 @@ class BlackDrops final : public TrialLearner {
       propose_without_model(proposal);
       return proposal;
     }
+    forget_faults(setting_);
     // The learner's state is assigned last: an interruption must leave none of it behind.
     identification::WarmStart state;
     Task task = setting_.task;
@@ -98,6 +102,7 @@ class BlackDrops final : public TrialLearner {
       proposal.theta = known->theta;
     } else
       proposal.search_s = seconds([&] { search(proposal, task); });
+    proposal.failed_row = fault_of_prior(setting_);
     model_.keep(std::move(state));
     return proposal;
   }

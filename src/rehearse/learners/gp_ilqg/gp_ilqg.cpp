@@ -4,12 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rehearse/core/episode_fit.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/learners/builder.hpp"
 #include "rehearse/learners/gp_ilqg/plan_search.hpp"
 #include "rehearse/learners/json.hpp"
 #include "rehearse/learners/model_of_trials.hpp"
+#include "rehearse/learners/prior_faults.hpp"
 #include "rehearse/learners/trial_learner.hpp"
 
 namespace rehearse::learners::gp_ilqg {
@@ -25,7 +27,7 @@ identification::Kind kind_of(const Options& options) {
 class GpIlqg final : public TrialLearner {
  public:
   GpIlqg(Setting setting, const Options& options)
-      : setting_(std::move(setting)), options_(options), model_(setting_, kind_of(options)) {}
+      : setting_(watched(std::move(setting))), options_(options), model_(setting_, kind_of(options)) {}
 
   void study(const std::vector<Episode>& logs) override { model_.study(logs); }
 
@@ -42,6 +44,7 @@ class GpIlqg final : public TrialLearner {
   Proposal propose(const KnownProposal* known) {
     const Task& task = setting_.task;
     Proposal proposal;
+    forget_faults(setting_);
     identification::WarmStart start;
     proposal.model_s = seconds([&] { start = model_.learn(proposal); });
     proposal.policy = policy::make_tracking(task, 1 + steps_to_plan(task, options_.search));
@@ -49,6 +52,7 @@ class GpIlqg final : public TrialLearner {
       proposal.theta = known->theta;
     else
       proposal.search_s = seconds([&] { search(proposal); });
+    proposal.failed_row = fault_of_prior(setting_);
     model_.keep(std::move(start));
     return proposal;
   }
@@ -68,6 +72,7 @@ class GpIlqg final : public TrialLearner {
   }
 
   void learn(const Proposal& tried, const Episode& episode) override {
+    require_fit(episode, setting_.task);
     model_.add(episode);
     plan_ = tried.theta;
     ++trials_;

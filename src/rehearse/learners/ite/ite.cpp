@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "rehearse/core/episode_fit.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
@@ -49,6 +50,7 @@ class Ite final : public TrialLearner {
 
  private:
   void learn(const Proposal&, const Episode& episode) override {
+    require_fit(episode, setting_.task);
     tried_.push_back(elite_);
     add(episode);
     adapt(trials_.size() - 1);

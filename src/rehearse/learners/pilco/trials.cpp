@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rehearse/core/episode_fit.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
@@ -57,6 +58,7 @@ Proposal random_actions(const Setting& setting, double hold_s, const StreamKey& 
 }  // namespace
 
 void Trials::learn(const Proposal& tried, const Episode& episode) {
+  require_fit(episode, setting_.task);
   if (tried.policy == setting_.policy) theta_ = tried.theta;
   add(episode);
   ++trials_;
@@ -106,7 +108,7 @@ void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
 }
 
 void Trials::study(const std::vector<Episode>& logs) {
-  logs_.add(logs, setting_.task.dt_s);
+  logs_.add(logs, setting_.task);
   data_ = logs_.rows();
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::learners {
 namespace {
 
@@ -13,18 +15,34 @@ Episode log_of(Index steps) {
   return log;
 }
 
+Task task(double dt_s) {
+  Task task;
+  task.states = {{"x", "m"}};
+  task.actions = {{"u", "N", {-1, 1}}};
+  task.dt_s = dt_s;
+  return task;
+}
+
+TEST(Logs, OfOtherSizesAreRefused) {
+  Logs logs;
+  Episode wrong = log_of(100);
+  wrong.actions.setZero(100, 2);
+  EXPECT_THROW(logs.add({log_of(100), wrong}, task(0.1)), InvalidInput);
+  EXPECT_EQ(logs.rows().size(), 0);
+}
+
 TEST(Logs, AreLearnedFromWhole) {
   Logs logs;
   EXPECT_EQ(logs.rows().size(), 0);
-  logs.add({log_of(100), log_of(200)}, 0.1);
-  logs.add({log_of(Logs::kMost - 300)}, 0.1);
+  logs.add({log_of(100), log_of(200)}, task(0.1));
+  logs.add({log_of(Logs::kMost - 300)}, task(0.1));
   EXPECT_EQ(logs.rows().size(), Logs::kMost);
   EXPECT_EQ(logs.note(), "");
 }
 
 TEST(Logs, LongOnesAreLearnedFromInStretchesOfASecond) {
   Logs logs;
-  logs.add({log_of(12000)}, 0.02);
+  logs.add({log_of(12000)}, task(0.02));
   const Matrix& states = logs.rows().states;
   EXPECT_EQ(states.rows(), 400);
   for (Index row = 0; row + 1 < states.rows(); ++row)
@@ -36,9 +54,9 @@ TEST(Logs, LongOnesAreLearnedFromInStretchesOfASecond) {
 
 TEST(Logs, ToldLaterAreSpreadWithThoseBefore) {
   Logs both, one_by_one;
-  both.add({log_of(3000), log_of(1000)}, 0.1);
-  one_by_one.add({log_of(3000)}, 0.1);
-  one_by_one.add({log_of(1000)}, 0.1);
+  both.add({log_of(3000), log_of(1000)}, task(0.1));
+  one_by_one.add({log_of(3000)}, task(0.1));
+  one_by_one.add({log_of(1000)}, task(0.1));
   EXPECT_EQ(one_by_one.rows().states, both.rows().states) << "a run that is read again is told all at once";
 }
 

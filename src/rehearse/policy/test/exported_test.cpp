@@ -18,6 +18,15 @@ TEST(Exported, HasTheAnswersOfThePolicy) {
   }
 }
 
+TEST(Exported, QuestionsOfOtherSizesAreRefused) {
+  const exports::Case of = exports::cases().front();
+  Answers wrong = exports::asked(5, 0.1);
+  wrong.times_s.conservativeResize(2);
+  EXPECT_THROW(exports::exported(of, wrong), InvalidInput);
+  wrong = {.states = Matrix::Zero(5, 2), .times_s = Vector::Zero(5), .actions = {}};
+  EXPECT_THROW(exports::exported(of, wrong), InvalidInput);
+}
+
 TEST(Exported, AtAnotherThetaIsWhatItWouldHaveBeen) {
   for (exports::Case each : exports::cases()) {
     const Exported first = exports::exported(each, exports::asked(5, 0.1));

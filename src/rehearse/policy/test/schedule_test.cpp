@@ -48,7 +48,7 @@ TEST(RandomSchedule, HoldsEachActionForItsTime) {
   task.actions = {{"pull", "N", {-1, 1}}, {"push", "N", {2, 3}}};
   task.dt_s = 0.2;
   task.horizon = 12;
-  for (const auto& [hold_s, steps] : std::vector<std::pair<double, Index>>{{0, 1}, {0.2, 1}, {0.64, 3}}) {
+  for (const auto& [hold_s, steps] : std::vector<std::pair<double, Index>>{{0, 1}, {0.2, 1}, {0.44, 2}, {2, 2}}) {
     const Vector theta = random_schedule(task, RandomActions::uniform, hold_s, {.trial = 1});
     ASSERT_EQ(theta.size(), 2 * task.horizon);
     EXPECT_EQ(theta, random_schedule(task, RandomActions::uniform, hold_s, {.trial = 1}));

@@ -212,25 +212,30 @@ TEST(Execute, ARewardThatIsNotFiniteEndsTheEpisodeAtTheFloor) {
   }
 }
 
-TEST(Execute, AnActionThatIsNotFiniteNeverReachesThePlant) {
-  /// A policy whose fourth action is NaN.
-  class Broken final : public policy::Policy {
-   public:
-    std::string name() const override { return "broken"; }
-    Index parameters() const override { return 1; }
-    Index actions() const override { return 1; }
-    void act(const ConstMatrixView&, const ConstMatrixView&, double t_s, MatrixView U) const override {
-      U.setConstant(t_s < 0.25 ? 1 : std::numeric_limits<double>::quiet_NaN());
-    }
-  };
+/// A policy whose fourth action is another.
+struct Broken final : policy::Policy {
+  explicit Broken(double action) : fourth(action) {}
+  std::string name() const override { return "broken"; }
+  Index parameters() const override { return 1; }
+  Index actions() const override { return 1; }
+  void act(const ConstMatrixView&, const ConstMatrixView&, double t_s, MatrixView U) const override {
+    U.setConstant(t_s < 0.25 ? 1 : fourth);
+  }
+  double fourth;
+};
+
+TEST(Execute, AnActionOutOfItsBoundsNeverReachesThePlant) {
   const Task task = cart::task();
-  CartPlant plant;
-  const Episode episode = execute(plant, Broken(), Vector::Zero(1), task, kRng);
-  EXPECT_EQ(plant.actions, (std::vector<double>{1, 1, 1}));
-  EXPECT_EQ(episode.failure, "an action at step 3 is not finite");
-  EXPECT_TRUE(episode.ended);
-  EXPECT_EQ(episode.steps(), 3);
-  EXPECT_DOUBLE_EQ(episode.charged, 17 * task.reward_floor);
+  for (const auto& [action, why] : {std::pair{std::nan(""), "an action at step 3 is not finite"},
+                                    {-2.5, "the policy's action force at step 3 is -2.5, must be in -2 to 2"}}) {
+    CartPlant plant;
+    const Episode episode = execute(plant, Broken(action), Vector::Zero(1), task, kRng);
+    EXPECT_EQ(plant.actions, (std::vector<double>{1, 1, 1}));
+    EXPECT_EQ(episode.failure, why);
+    EXPECT_TRUE(episode.ended);
+    EXPECT_EQ(episode.steps(), 3);
+    EXPECT_DOUBLE_EQ(episode.charged, 17 * task.reward_floor);
+  }
 }
 
 TEST(Execute, MayBeStoppedBeforeAnyStep) {
