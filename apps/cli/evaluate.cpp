@@ -144,7 +144,7 @@ Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& a
     violations.attempt([&] { check_output(asked.table); });
   if (!has_robot || !asked.knows_policy) violations.throw_if_any();
   return {experiment::prepare_evaluation(*run, std::move(asked.request), std::move(violations)), std::move(asked.table),
-          make_stoppable(make_thread_evaluator(static_cast<int>(asked.threads)), [] { return caught_signal() != 0; })};
+          evaluator_until_signal(static_cast<int>(asked.threads))};
 }
 
 void announce(const Work& work, const EvaluateArguments& arguments) {

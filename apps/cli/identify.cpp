@@ -75,8 +75,7 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
   violations.throw_if_any();
   const study::Problem problem = setup.problem(logs, held_out);
   StatusLine line;
-  const auto evaluator =
-      make_stoppable(make_thread_evaluator(static_cast<int>(threads)), [] { return caught_signal() != 0; });
+  const auto evaluator = evaluator_until_signal(static_cast<int>(threads));
   try {
     const SignalWatch watch([] { return std::string("interrupted: nothing was written"); });
     const study::Study study = study::study_logs(

@@ -114,7 +114,7 @@ Index usual_search(const experiment::Catalogue& catalogue) {
   if (!learner) return 0;
   const auto options = list_fields([&](FieldVisitor& v) { learner->fields(v); });
   const auto found = std::ranges::find(options, "search.race.max_evaluations", [](const auto& o) { return o.first; });
-  return std::stoll(found->second);
+  return found == options.end() ? 0 : std::stoll(found->second);
 }
 
 /// Prints how fast a prior is, and how long a search takes whose time goes to it.
@@ -182,8 +182,7 @@ std::string text_of_new(const std::string& name, const std::string& path) {
 }
 
 check::Tried tried_out(const scenario::Scenario& scenario) {
-  const auto stoppable = make_stoppable(make_thread_evaluator(1), [] { return caught_signal() != 0; });
-  return check::try_out(scenario, *stoppable);
+  return check::try_out(scenario, *evaluator_until_signal(1));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "apps/cli/signals.hpp"
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -19,7 +20,8 @@ namespace {
 
 constexpr auto kGrace = std::chrono::seconds(1);
 
-volatile std::sig_atomic_t remembered = 0;
+std::atomic<int> remembered = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "a handler of signals writes it");
 sem_t came;  // posted by the first signal, and by the end of the watch
 
 /// The second signal: programs that we started have no terminal's signals, and no destructor ends them now.
@@ -81,6 +83,13 @@ void SignalWatch::watch() {
 
 int caught_signal() { return remembered; }
 
-int exit_code_of_signal() { return 128 + (remembered != 0 ? remembered : SIGTERM); }
+std::shared_ptr<const Evaluator> evaluator_until_signal(int threads) {
+  return make_stoppable(make_thread_evaluator(threads), [] { return caught_signal() != 0; });
+}
+
+int exit_code_of_signal() {
+  const int signal = caught_signal();
+  return 128 + (signal != 0 ? signal : SIGTERM);
+}
 
 }  // namespace rehearse::apps

@@ -2,9 +2,12 @@
 
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+
+#include "rehearse/core/evaluator.hpp"
 
 namespace rehearse::apps {
 
@@ -32,6 +35,9 @@ class SignalWatch {
 
 /// The signal that was caught; 0 if there was none.
 int caught_signal();
+
+/// Work on so many threads, which a signal stops.
+std::shared_ptr<const Evaluator> evaluator_until_signal(int threads);
 
 /// The exit code of a process that stopped because of a signal, or because another rank was told to.
 int exit_code_of_signal();

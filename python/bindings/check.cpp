@@ -8,6 +8,7 @@
 #include "python/bindings/work.hpp"
 #include "rehearse/check/complaints.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/participants.hpp"
 
 namespace rehearse::python {
 namespace {
@@ -35,8 +36,7 @@ Found check(const Robot& robot, const std::string& name, bool plant, bool shown)
       states.push_back(scenario.task.states[static_cast<std::size_t>(i)].name);
     std::vector<std::string> limits;
     for (const Limit& limit : scenario.task.limits) limits.push_back(limit.name);
-    const auto stoppable = make_stoppable(options.evaluator, options.stop);
-    found = {std::move(states), std::move(limits), check::try_out(scenario, *stoppable)};
+    found = {std::move(states), std::move(limits), check::try_out(scenario, *experiment::evaluator_of(options))};
     const std::vector<std::string> faults = scenario.faults ? scenario.faults() : std::vector<std::string>();
     found->tried.notes.insert(found->tried.notes.end(), faults.begin(), faults.end());
   });

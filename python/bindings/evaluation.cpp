@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings/work.hpp"
+#include "rehearse/experiment/participants.hpp"
 #include "rehearse/experiment/prepared_evaluation.hpp"
 
 namespace rehearse::python {
@@ -20,7 +21,7 @@ using EvaluationWork = std::function<void(const PreparedEvaluation&, const Evalu
 void with_evaluation(const Robot& robot, const EvaluationRequest& request, int threads, const EvaluationWork& work) {
   work_with(robot, {threads}, [&](const Robot& own, const experiment::RunOptions& options) {
     work(experiment::prepare_evaluation(experiment::read_run(own.catalogue(), request.folder), request),
-         *make_stoppable(options.evaluator, options.stop));
+         *experiment::evaluator_of(options));
   });
 }
 

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings/work.hpp"
+#include "rehearse/experiment/participants.hpp"
 #include "rehearse/experiment/study_setup.hpp"
 #include "rehearse/study/page.hpp"
 #include "rehearse/study/summary.hpp"
@@ -44,8 +45,7 @@ Texts identify(const Robot& robot, const experiment::StudyRequest& request, cons
     violations.throw_if_any();
     const auto logs = with_notes(read.logs, texts.notes), held_out = with_notes(read.held_out, texts.notes);
     const study::Problem problem = setup.problem(logs, held_out);
-    const study::Study study =
-        study::study_logs(problem, setup.options.study, *make_stoppable(options.evaluator, options.stop));
+    const study::Study study = study::study_logs(problem, setup.options.study, *experiment::evaluator_of(options));
     texts.tables = study::csv_files(study, problem);
     for (const study::Section& section : study::summary(study, problem))
       texts.summary.emplace_back(section.title, study::lines_of(section));

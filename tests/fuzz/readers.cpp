@@ -12,6 +12,7 @@
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/seal.hpp"
+#include "rehearse/files/table.hpp"
 #include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/files/toml_reader.hpp"
 #include "rehearse/mujoco/simulator.hpp"
@@ -21,7 +22,6 @@
 #include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/robot_file.hpp"
 #include "rehearse/robots/pendulum/pendulum.hpp"
-#include "rehearse/statistics/table.hpp"
 #include "rehearse/system/answers.hpp"
 #include "rehearse/system/messages.hpp"
 
@@ -93,7 +93,7 @@ void read_policy(std::string_view text) {
 }
 
 void read_table(std::string_view text) {
-  const statistics::Table table = statistics::read_csv(text);
+  const files::Table table = files::read_csv(text);
   report::Problems problems;
   (void)report::columns(table, "trials.csv", problems);
 }

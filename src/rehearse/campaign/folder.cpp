@@ -151,7 +151,7 @@ void begin(const experiment::Catalogue& catalogue, const fs::path& path, std::st
 /// checkpoint.
 RunOutcome rows_of(const fs::path& file, Index trials) {
   try {
-    if (fs::exists(file)) return outcome_of(statistics::read_csv(files::read_file(file)), trials);
+    if (fs::exists(file)) return outcome_of(files::read_csv(files::read_file(file)), trials);
   } catch (const InvalidInput&) {
   }
   return {};

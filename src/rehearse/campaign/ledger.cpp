@@ -21,7 +21,7 @@ json to_json(const RunOutcome& outcome) {
 }
 
 RunOutcome to_outcome(const json& j) {
-  statistics::Table trials{.header = j.at("header"), .rows = j.at("rows")};
+  files::Table trials{.header = j.at("header"), .rows = j.at("rows")};
   const auto rows = static_cast<Index>(trials.rows.size());
   RunOutcome outcome;
   if (!trials.header.empty()) outcome = outcome_of(std::move(trials), rows);

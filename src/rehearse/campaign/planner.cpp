@@ -91,7 +91,8 @@ class Planner {
                                    .trials = file_.trials,
                                    .until_solved = file_.until_solved,
                                    .seed = file_.seeds.empty() ? 1 : file_.seeds.front()};
-    const auto complete = completed_bare(bare, line(prior.empty() ? "learners" : "priors"));
+    const auto complete = value_or_violations(line(prior.empty() ? "learners" : "priors"),
+                                              [&] { return experiment::completed(catalogue_, bare); });
     if (!complete) return;
     for (const auto& [key, text] : complete->options)
       known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
@@ -107,25 +108,21 @@ class Planner {
     }
   }
 
-  /// The spec with the options of this preset, if there is one, or nothing and violations, at this line.
-  std::optional<experiment::Spec> begun_with(const std::string& preset, const experiment::Spec& spec, Index line) {
-    if (preset.empty()) return spec;
+  /// What the work returns, or nothing and the violations that it throws, at this line.
+  template <class Work>
+  auto value_or_violations(Index line, Work work) -> std::optional<decltype(work())> {
     try {
-      return with_preset(catalogue_, spec, preset);
+      return work();
     } catch (const InvalidInput& error) {
       for (const std::string& message : error.violations()) violations_.add(line, message);
       return std::nullopt;
     }
   }
 
-  /// The complete spec without the file's options, or nothing and violations, at this line.
-  std::optional<experiment::Spec> completed_bare(const experiment::Spec& bare, Index line) {
-    try {
-      return experiment::completed(catalogue_, bare);
-    } catch (const InvalidInput& error) {
-      for (const std::string& message : error.violations()) violations_.add(line, message);
-      return std::nullopt;
-    }
+  /// The spec with the options of this preset, if there is one, or nothing and violations, at this line.
+  std::optional<experiment::Spec> begun_with(const std::string& preset, const experiment::Spec& spec, Index line) {
+    if (preset.empty()) return spec;
+    return value_or_violations(line, [&] { return with_preset(catalogue_, spec, preset); });
   }
 
   /// The complete spec, or nothing and violations, at the line of the option that causes each.

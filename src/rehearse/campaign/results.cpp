@@ -45,7 +45,7 @@ Index Campaign::count(RunState state, std::size_t group) const {
   return std::ranges::count(first, first + std::ssize(plan.seeds), state, &RunOutcome::state);
 }
 
-RunOutcome outcome_of(statistics::Table trials, Index planned_trials) {
+RunOutcome outcome_of(files::Table trials, Index planned_trials) {
   RunOutcome outcome{.trials = std::move(trials)};
   const std::size_t rows = std::min(outcome.trials.rows.size(), static_cast<std::size_t>(planned_trials));
   outcome.trials.rows.resize(rows);

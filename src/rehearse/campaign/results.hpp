@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rehearse/campaign/plan.hpp"
-#include "rehearse/statistics/table.hpp"
+#include "rehearse/files/table.hpp"
 
 namespace rehearse::campaign {
 
@@ -15,7 +15,7 @@ enum class RunState { unfinished, done, failed };
 struct RunOutcome {
   RunState state = RunState::unfinished;
   std::string reason;                          // why it failed, in one line
-  statistics::Table trials;                    // its trials.csv, up to as many trials as are planned
+  files::Table trials;                         // its trials.csv, up to as many trials as are planned
   std::vector<double> interaction_s, returns;  // of these, by trial
   std::vector<std::optional<bool>> solved;     // empty: the scenario cannot say
 
@@ -59,6 +59,6 @@ struct Campaign {
 };
 
 /// The rows of a trials.csv as an outcome that is unfinished. Throws InvalidInput if it is none.
-RunOutcome outcome_of(statistics::Table trials, Index planned_trials);
+RunOutcome outcome_of(files::Table trials, Index planned_trials);
 
 }  // namespace rehearse::campaign

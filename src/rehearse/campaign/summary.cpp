@@ -205,7 +205,7 @@ Json claims_json(const Campaign& campaign) {
 
 /// Columns of trials.csv in all runs, the common ones first.
 Row trial_columns(const Campaign& campaign) {
-  Row columns = statistics::read_csv(experiment::trials_csv({}, {})).header;
+  Row columns = files::read_csv(experiment::trials_csv({}, {})).header;
   for (const RunOutcome& run : campaign.runs)
     for (const std::string& column : run.trials.header)
       if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
@@ -234,7 +234,7 @@ std::string campaign_csv(const Campaign& campaign) {
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
     const PlannedRun& run = campaign.plan.runs[i];
     const CampaignGroup& group = campaign.plan.groups[run.group];
-    const statistics::Table& trials = campaign.runs[i].trials;
+    const files::Table& trials = campaign.runs[i].trials;
     Row row = {run.name, run.spec.scenario, group.learner, group.prior, group.variant, files::Csv::cell(run.spec.seed)};
     row.resize(header.size());
     std::vector<std::size_t> places;

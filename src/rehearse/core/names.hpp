@@ -18,6 +18,13 @@ inline bool is_word(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), is_part);
 }
 
+/// Of letters of ASCII.
+inline std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
 /// The unit behind a number: " kg"; empty without one.
 inline std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
 

@@ -22,7 +22,8 @@ class Ranks {
   virtual int rank() const = 0;  // 0 leads
   virtual int size() const = 0;
 
-  /// Returns what every rank gave, in order of rank. step: what all are at, "episode 3"; all throw where ranks differ.
+  /// Returns what every rank gave, in order of rank. step: what all are at, "open the folder"; all throw where ranks
+  /// differ.
   std::vector<std::string> exchange(std::string_view step, std::string_view bytes);
 
   /// Rank 0 calls `work`, and every rank returns what it returned. Its exception is thrown everywhere.

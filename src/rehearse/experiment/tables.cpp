@@ -37,6 +37,15 @@ void add_parameters(Row& row, const TrialRecord& trial) {
   }
 }
 
+/// One row a sentence of a trial.
+std::string sentences_csv(const std::vector<TrialRecord>& trials, const char* name,
+                          std::vector<std::string> TrialRecord::*sentences) {
+  files::Csv csv({"trial", name});
+  for (const TrialRecord& trial : trials)
+    for (const std::string& sentence : trial.*sentences) csv.row({files::Csv::cell(trial.trial), sentence});
+  return csv.text();
+}
+
 void add_moments_header(Row& header, const Task& task) {
   for (const std::string format : {"{} std", "{} moment mean", "{} moment std"}) add_states(header, task, format);
   header.insert(header.end(), {"reward mean", "reward std", "reward moment mean", "reward moment std"});
@@ -133,17 +142,11 @@ std::string limits_csv(const std::vector<TrialRecord>& trials) {
 }
 
 std::string notes_csv(const std::vector<TrialRecord>& trials) {
-  files::Csv csv({"trial", "note"});
-  for (const TrialRecord& t : trials)
-    for (const std::string& note : t.notes) csv.row({files::Csv::cell(t.trial), note});
-  return csv.text();
+  return sentences_csv(trials, "note", &TrialRecord::notes);
 }
 
 std::string identifiability_csv(const std::vector<TrialRecord>& trials) {
-  files::Csv csv({"trial", "warning"});
-  for (const TrialRecord& t : trials)
-    for (const std::string& warning : t.warnings) csv.row({files::Csv::cell(t.trial), warning});
-  return csv.text();
+  return sentences_csv(trials, "warning", &TrialRecord::warnings);
 }
 
 std::string logs_csv(const std::vector<Log>& logs, const Task& task) {

@@ -1,6 +1,6 @@
 #include "rehearse/files/seal.hpp"
 
-#include <cstdio>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ std::string_view unseal(std::string_view kind, std::string_view bytes) {
   const std::string start = fmt::format("rehearse-{} ", kind);
   int format = 0;
   if (line == std::string_view::npos || !bytes.starts_with(start) ||
-      std::sscanf(std::string(bytes.substr(start.size(), line - start.size())).c_str(), "%d ", &format) != 1)
+      std::from_chars(bytes.data() + start.size(), bytes.data() + line, format).ec != std::errc())
     throw InvalidInput(fmt::format("the {} is truncated or not one of Rehearse", kind));
   if (format != kFormat)
     throw InvalidInput(

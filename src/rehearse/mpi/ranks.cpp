@@ -1,10 +1,8 @@
 #include "rehearse/mpi/ranks.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <cstdint>
-#include <cstring>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -17,7 +15,6 @@ namespace rehearse::mpi {
 namespace {
 
 constexpr int kQuestion = 1, kAnswer = 2;
-constexpr std::size_t kBlock = 4096, kInBlock = kBlock - sizeof(int);
 
 std::string receive(int source, int tag, const MPI_Status& probed) {
   int size = 0;
@@ -31,8 +28,7 @@ void send(const std::string& bytes, int to, int tag) {
   MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, MPI_COMM_WORLD);
 }
 
-/// MPI's own waiting takes a whole core, which may be needed: by other ranks where there are fewer cores, and by
-/// anybody while rank 0 waits for a robot.
+/// MPI's own waiting takes a whole core, which other ranks may need where there are fewer cores.
 void wait_gently(const MPI_Request& request) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
@@ -83,43 +79,25 @@ class MpiRanks final : public Ranks {
   }
 
  protected:
-  /// Sends blocks of one size first, since waiting for the others costs most; the rest follows.
   std::vector<std::string> carry(const std::string& bytes) override {
     const auto ranks = static_cast<std::size_t>(size_);
     const int own = static_cast<int>(bytes.size());
-    std::string block(kBlock, '\0'), blocks(kBlock * ranks, '\0');
-    std::memcpy(block.data(), &own, sizeof own);
-    bytes.copy(block.data() + sizeof own, kInBlock);
+    std::vector<int> sizes(ranks), offsets(ranks);
     MPI_Request request;
-    MPI_Iallgather(block.data(), kBlock, MPI_BYTE, blocks.data(), kBlock, MPI_BYTE, MPI_COMM_WORLD, &request);
+    MPI_Iallgather(&own, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD, &request);
     wait_gently(request);
     MPI_Wait(&request, MPI_STATUS_IGNORE);
-
+    std::exclusive_scan(sizes.begin(), sizes.end(), offsets.begin(), 0);
+    std::string all(static_cast<std::size_t>(offsets.back() + sizes.back()), '\0');
+    MPI_Allgatherv(bytes.data(), own, MPI_BYTE, all.data(), sizes.data(), offsets.data(), MPI_BYTE,
+                   MPI_COMM_WORLD);  // at once, because all are here by now
     std::vector<std::string> given;
-    std::vector<int> rest, offsets = {0};
-    for (std::size_t i = 0; i < ranks; ++i) {
-      int size = 0;
-      std::memcpy(&size, blocks.data() + i * kBlock, sizeof size);
-      given.push_back(blocks.substr(i * kBlock + sizeof size, std::min(static_cast<std::size_t>(size), kInBlock)));
-      rest.push_back(std::max(0, size - static_cast<int>(kInBlock)));
-      offsets.push_back(offsets.back() + rest.back());
-    }
-    if (offsets.back() > 0) carry_rest(bytes, rest, offsets, given);
+    for (std::size_t i = 0; i < ranks; ++i)
+      given.push_back(all.substr(static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(sizes[i])));
     return given;
   }
 
  private:
-  /// At once, because all are here by now.
-  void carry_rest(const std::string& bytes, const std::vector<int>& sizes, const std::vector<int>& offsets,
-                  std::vector<std::string>& given) const {
-    std::string all(static_cast<std::size_t>(offsets.back()), '\0');
-    const char* own = bytes.data() + std::min(bytes.size(), kInBlock);
-    MPI_Allgatherv(own, sizes[static_cast<std::size_t>(rank_)], MPI_BYTE, all.data(), sizes.data(), offsets.data(),
-                   MPI_BYTE, MPI_COMM_WORLD);
-    for (std::size_t i = 0; i < given.size(); ++i)
-      given[i].append(all, static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(sizes[i]));
-  }
-
   int rank_ = 0, size_ = 1;
   std::mutex asking_;
 };

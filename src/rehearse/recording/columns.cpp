@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/core/name_list.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/recording/units.hpp"
 
@@ -44,11 +45,6 @@ Title title_of(const std::string& cell) {
   return {text, ""};
 }
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// "1,5"
 bool has_decimal_comma(std::string cell) {
   const auto comma = cell.find(',');
@@ -60,7 +56,7 @@ bool has_decimal_comma(std::string cell) {
 
 class Finder {
  public:
-  Finder(const statistics::Table& table, const Task& task, Problems& problems, std::vector<std::string>& notes)
+  Finder(const files::Table& table, const Task& task, Problems& problems, std::vector<std::string>& notes)
       : table_(table), problems_(problems), notes_(notes) {
     for (const std::string& cell : table.header) titles_.push_back(title_of(cell));
     for (const StateVariable& state : task.states) wanted_.insert(state.name);
@@ -117,8 +113,8 @@ class Finder {
     std::array<std::set<std::string>, 4> ranks;
     for (const auto& [name, unit] : titles_) {
       if (wanted_.contains(name)) continue;
-      if (lower(name) == "time") ranks[name == "time" ? 0 : 1].insert(name);
-      if (lower(name) == "t") ranks[name == "t" ? 2 : 3].insert(name);
+      if (in_lower_case(name) == "time") ranks[name == "time" ? 0 : 1].insert(name);
+      if (in_lower_case(name) == "t") ranks[name == "t" ? 2 : 3].insert(name);
     }
     const auto best = std::ranges::find_if_not(ranks, &std::set<std::string>::empty);
     if (best == ranks.end()) return "time";
@@ -198,7 +194,7 @@ class Finder {
                     fmt::format("time = {} s, must be after the {} s of the row before", time_s, times_.back()));
   }
 
-  const statistics::Table& table_;
+  const files::Table& table_;
   Problems& problems_;
   std::vector<std::string>& notes_;
   std::vector<Title> titles_;
@@ -209,7 +205,7 @@ class Finder {
 
 }  // namespace
 
-Channels find_channels(const statistics::Table& table, const Task& task, Problems& problems,
+Channels find_channels(const files::Table& table, const Task& task, Problems& problems,
                        std::vector<std::string>& notes) {
   Finder finder(table, task, problems, notes);
   auto [time, time_unit] = finder.find_times();

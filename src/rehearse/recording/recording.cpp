@@ -12,11 +12,11 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/table.hpp"
 #include "rehearse/recording/columns.hpp"
 #include "rehearse/recording/plausible.hpp"
 #include "rehearse/recording/resample.hpp"
 #include "rehearse/statistics/quantiles.hpp"
-#include "rehearse/statistics/table.hpp"
 
 namespace rehearse::recording {
 namespace {
@@ -52,9 +52,9 @@ std::string_view cleaned(std::string_view text, std::vector<std::string>& notes)
   return text;
 }
 
-statistics::Table table_of(std::string_view text, const std::string& source, std::vector<std::string>& notes) {
+files::Table table_of(std::string_view text, const std::string& source, std::vector<std::string>& notes) {
   try {
-    return statistics::read_csv(cleaned(text, notes));
+    return files::read_csv(cleaned(text, notes));
   } catch (const InvalidInput& error) {
     throw InvalidInput(fmt::format("{}: {}", source, error.what()));
   }
@@ -160,7 +160,7 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   check_size(static_cast<double>(csv_text.size()), source, options);
   Recording recording;
   Problems problems(source);
-  const statistics::Table table = table_of(csv_text, source, recording.notes);
+  const files::Table table = table_of(csv_text, source, recording.notes);
   if (table.rows.empty()) problems.add(0, "rows", "there is no row below the header");
   Channels channels = find_channels(table, task, problems, recording.notes);
   problems.throw_if_any();

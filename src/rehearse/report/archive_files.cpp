@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 constexpr int kDigits = 4;  // thousands of elites
 
 /// A column without a gap.
-std::vector<double> whole_column(const statistics::Table& table, const std::string& name) {
+std::vector<double> whole_column(const files::Table& table, const std::string& name) {
   std::vector<double> values;
   for (const auto& value : table.numbers(name)) {
     if (!value || !std::isfinite(*value))
@@ -22,20 +22,20 @@ std::vector<double> whole_column(const statistics::Table& table, const std::stri
   return values;
 }
 
-Json rounded_column(const statistics::Table& table, const std::string& name) {
+Json rounded_column(const files::Table& table, const std::string& name) {
   Json all = Json::array();
   for (const double value : whole_column(table, name)) all.push_back(rounded(value, kDigits));
   return all;
 }
 
 /// The columns before what the archive promises.
-std::vector<std::string> descriptors_of(const statistics::Table& elites) {
+std::vector<std::string> descriptors_of(const files::Table& elites) {
   const int promised = elites.column("promised");
   if (promised < 1) throw InvalidInput("there are no descriptors before a column promised");
   return {elites.header.begin(), elites.header.begin() + promised};
 }
 
-Json elites_json(const statistics::Table& elites) {
+Json elites_json(const files::Table& elites) {
   if (elites.rows.empty()) throw InvalidInput("it has no elites");
   Json json = {{"descriptors", Json::array()}};
   for (const std::string& name : descriptors_of(elites))
@@ -44,7 +44,7 @@ Json elites_json(const statistics::Table& elites) {
   return json;
 }
 
-Json tried_json(const statistics::Table& tried, std::size_t elites, Problems& problems) {
+Json tried_json(const files::Table& tried, std::size_t elites, Problems& problems) {
   for (const char* name : {"trial", "promised", "learned"}) whole_column(tried, name);
   for (const double elite : whole_column(tried, "elite"))
     if (elite < 1 || elite > static_cast<double>(elites) || elite != std::round(elite))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <tuple>
@@ -64,13 +65,20 @@ Group group_of(const Json& run) {
           run.at("variant").get<std::string>()};
 }
 
-/// Throws InvalidInput where no run can have so many.
-Index trials_of(const Json& run) {
+/// A number of trials, or of one. Throws InvalidInput where no run can have so many.
+Index trials_of(double number, const char* what) {
   constexpr double kMost = 1e6;
-  const double number = run.at("trials").get<double>();
   if (!(number >= 0 && number <= kMost) || number != std::floor(number))
-    throw InvalidInput(fmt::format("summary.json: trials = {}, must be a whole number in 0 to {}", number, kMost));
+    throw InvalidInput(fmt::format("{} = {}, must be a whole number in 0 to {}", what, number, kMost));
   return static_cast<Index>(number);
+}
+
+/// Adds the values of a column to those of their trials.
+void add_by_trial(const files::Table& table, const std::string& column,
+                  const std::function<ByTrial&(std::size_t)>& of_row) {
+  const auto trials = table.numbers("trial"), values = table.numbers(column);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] && trials[i]) of_row(i)[trials_of(*trials[i], "trial")].push_back(*values[i]);
 }
 
 /// Adds a problem for every run that failed, and for what happened to the folders since the summary was written.
@@ -81,7 +89,8 @@ void check_runs(const fs::path& folder, const Json& runs, Problems& problems) {
     if (state == "failed")
       problems.add(where, reason.is_string() ? "failed: " + reason.get<std::string>() : "failed");
     else if (fs::exists(folder / where) || state == "done")
-      check_run_folder(folder / where, where, trials_of(run), problems);
+      check_run_folder(folder / where, where, trials_of(run.at("trials").get<double>(), "summary.json: trials"),
+                       problems);
   }
 }
 
@@ -103,25 +112,13 @@ void name_strangers(const fs::path& folder, const Json& summary, Problems& probl
   }
 }
 
-/// The cells of a column.
-std::vector<std::string> texts(const statistics::Table& table, std::string_view name) {
-  const int position = table.column(name);
-  if (position < 0) throw InvalidInput(fmt::format("there is no column {}", name));
-  std::vector<std::string> cells;
-  for (const auto& row : table.rows) cells.push_back(row[static_cast<std::size_t>(position)]);
-  return cells;
-}
-
-Samples parameter_samples(const statistics::Table& table) {
-  const auto learners = texts(table, "learner"), priors = texts(table, "prior"), variants = texts(table, "variant");
-  const auto trials = table.numbers("trial");
+Samples parameter_samples(const files::Table& table) {
+  const auto learners = table.texts("learner"), priors = table.texts("prior"), variants = table.texts("variant");
   Samples samples;
-  for (const std::string& name : parameter_names(table)) {
-    const auto values = table.numbers("phi." + name);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (values[i] && trials[i])
-        samples[{{learners[i], priors[i], variants[i]}, name}][static_cast<Index>(*trials[i])].push_back(*values[i]);
-  }
+  for (const std::string& name : parameter_names(table))
+    add_by_trial(table, "phi." + name, [&](std::size_t i) -> ByTrial& {
+      return samples[{{learners[i], priors[i], variants[i]}, name}];
+    });
   return samples;
 }
 
@@ -171,7 +168,7 @@ std::optional<double> common_truth(const std::vector<RunSpec>& specs, const std:
   return same ? truth : std::nullopt;
 }
 
-Json parameters_json(const fs::path& folder, const Json& summary, const statistics::Table& table) {
+Json parameters_json(const fs::path& folder, const Json& summary, const files::Table& table) {
   Json parameters = samples_json(summary, parameter_samples(table), "parameter");
   auto specs = specs_of(folder, summary.at("runs"));
   for (Json& parameter : parameters) {
@@ -187,13 +184,8 @@ Samples time_samples(const fs::path& folder, const Json& runs) {
   for (const Json& run : runs) {
     try {
       const auto table = read_table(folder / run.at("folder").get<std::string>() / "timings.csv");
-      const auto trials = table.numbers("trial");
-      for (const char* part : {"model_s", "search_s"}) {
-        const auto seconds = table.numbers(part);
-        for (std::size_t i = 0; i < seconds.size(); ++i)
-          if (seconds[i] && trials[i])
-            samples[{group_of(run), part}][static_cast<Index>(*trials[i])].push_back(*seconds[i]);
-      }
+      for (const char* part : {"model_s", "search_s"})
+        add_by_trial(table, part, [&](std::size_t) -> ByTrial& { return samples[{group_of(run), part}]; });
     } catch (const InvalidInput&) {  // a run that did not start has none
     }
   }

@@ -15,7 +15,7 @@ bool has_sentences(const std::string& column) { return column == "note" || colum
 
 /// no_number(row): the first cell that is neither a number nor empty.
 template <class NoNumber>
-Json numbers(const statistics::Table& table, std::size_t position, NoNumber no_number) {
+Json numbers(const files::Table& table, std::size_t position, NoNumber no_number) {
   Json column = Json::array();
   bool whole = true;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -35,7 +35,7 @@ bool check_depth(int depth, Json::parse_event_t, Json&) {
   return true;
 }
 
-Json sentences(const statistics::Table& table, std::size_t position) {
+Json sentences(const files::Table& table, std::size_t position) {
   Json column = Json::array();
   for (const auto& row : table.rows) column.push_back(row[position]);
   return column;
@@ -45,7 +45,7 @@ Json sentences(const statistics::Table& table, std::size_t position) {
 
 std::string read_text(const std::filesystem::path& path) { return files::RegularFile(path).read(); }
 
-statistics::Table read_table(const std::filesystem::path& path) { return statistics::read_csv(read_text(path)); }
+files::Table read_table(const std::filesystem::path& path) { return files::read_csv(read_text(path)); }
 
 Json read_json(const std::filesystem::path& path) {
   try {
@@ -73,7 +73,7 @@ Json rounded(Json json) {
   return json;
 }
 
-Json columns(const statistics::Table& table, const std::filesystem::path& where, Problems& problems) {
+Json columns(const files::Table& table, const std::filesystem::path& where, Problems& problems) {
   Json all = Json::object();
   for (std::size_t i = 0; i < table.header.size(); ++i) {
     const std::string& name = table.header[i];

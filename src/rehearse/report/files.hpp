@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/files/table.hpp"
 #include "rehearse/report/page_data.hpp"
-#include "rehearse/statistics/table.hpp"
 
 namespace rehearse::report {
 
@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 std::string read_text(const std::filesystem::path& path);
 
 /// A table that is whole. Throws InvalidInput.
-statistics::Table read_table(const std::filesystem::path& path);
+files::Table read_table(const std::filesystem::path& path);
 
 /// Throws InvalidInput.
 Json read_json(const std::filesystem::path& path);
@@ -56,6 +56,6 @@ class Problems {
 
 /// Column name → cells. All are numbers or empty (null) but those of the columns of texts, `note`, `warning` and
 /// `limit`; what should be a number and is none becomes null, and the first one of a column a problem.
-Json columns(const statistics::Table& table, const std::filesystem::path& where, Problems& problems);
+Json columns(const files::Table& table, const std::filesystem::path& where, Problems& problems);
 
 }  // namespace rehearse::report

@@ -13,11 +13,11 @@ constexpr std::string_view kMomentMean = " moment mean";
 struct Variable {
   std::string name, unit;  // unit: " [m]", or nothing
 
-  Numbers column(const statistics::Table& table, const char* part) const { return table.numbers(name + part + unit); }
+  Numbers column(const files::Table& table, const char* part) const { return table.numbers(name + part + unit); }
 };
 
 /// The variables that moment matching predicts, the reward among them.
-std::vector<Variable> variables(const statistics::Table& table) {
+std::vector<Variable> variables(const files::Table& table) {
   std::vector<Variable> found;
   for (const std::string& header : table.header)
     if (const std::size_t end = header.find(kMomentMean); end != std::string::npos)
@@ -33,7 +33,7 @@ struct Gap {
 };
 
 /// Compares a state at all times where the samples differ: a start that is known exactly has no deviation.
-void compare(const statistics::Table& table, const Variable& state, const Numbers& times, Gap& gap) {
+void compare(const files::Table& table, const Variable& state, const Numbers& times, Gap& gap) {
   const Numbers mean = state.column(table, " mean"), deviation = state.column(table, " std");
   const Numbers other = state.column(table, " moment mean"), other_deviation = state.column(table, " moment std");
   for (std::size_t t = 0; t < times.size(); ++t) {
@@ -58,7 +58,7 @@ Json total(const Numbers& rewards) {
 
 }  // namespace
 
-Json prediction_gap(const statistics::Table& prediction) {
+Json prediction_gap(const files::Table& prediction) {
   const std::vector<Variable> all = variables(prediction);
   if (all.empty()) return {};
   const Numbers times = prediction.numbers("time [s]");

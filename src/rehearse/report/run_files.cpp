@@ -53,7 +53,7 @@ Json spec_json(const RunSpec& spec) {
           {"seed", spec.seed},         {"planned", spec.trials},  {"options", options}};
 }
 
-Json truths(const RunSpec& spec, const statistics::Table& trials) {
+Json truths(const RunSpec& spec, const files::Table& trials) {
   Json truth = Json::object();
   for (const std::string& name : parameter_names(trials))
     if (const auto value = spec.truth(name)) truth[name] = rounded(*value);
@@ -123,7 +123,7 @@ Json episode(const fs::path& folder, Index trial, Problems& problems) {
   const fs::path prediction = trial_file("predictions", trial);
   Json predicted, gap;
   const auto read_prediction = [&] {
-    const statistics::Table read = read_table(folder / prediction);
+    const files::Table read = read_table(folder / prediction);
     predicted = columns(read, prediction, problems);
     gap = prediction_gap(read);
     return true;
@@ -176,7 +176,7 @@ RunSpec read_spec(const fs::path& folder) {
           .options = options_of(file)};
 }
 
-std::vector<std::string> parameter_names(const statistics::Table& trials) {
+std::vector<std::string> parameter_names(const files::Table& trials) {
   constexpr std::string_view kPrefix = "phi.";
   const std::set<std::string> columns(trials.header.begin(), trials.header.end());
   const auto is_end = [&](const std::string& column) {  // of the interval of a parameter

@@ -28,7 +28,7 @@ struct RunSpec {
 RunSpec read_spec(const std::filesystem::path& folder);
 
 /// Names of the tunable parameters: the columns phi.NAME of a trials.csv.
-std::vector<std::string> parameter_names(const statistics::Table& trials);
+std::vector<std::string> parameter_names(const files::Table& trials);
 
 /// Says what is damaged or missing in the folder of a run that has `trials` trials, without reading all of it.
 /// where: what to call the folder in problems.

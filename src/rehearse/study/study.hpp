@@ -41,8 +41,7 @@ struct StepErrors {
 };
 
 struct Study {
-  LogModel model;                     // of all logs
-  std::vector<std::string> left_out;  // the log that each of these did not learn from
+  LogModel model;  // of all logs
   std::vector<LogModel> without;
   std::vector<double> horizons_s;
   Matrix calibration;  // horizons × dx, from the logs left out

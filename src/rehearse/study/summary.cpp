@@ -70,7 +70,7 @@ bool agree(const std::vector<LogModel>& models, std::size_t continuous) {
 
 Section parameters(const Study& study, const Problem& problem) {
   Section section{.title = "Parameters", .table = {{"parameter", "value", "guess", "95 %"}}, .notes = {}};
-  for (const std::string& log : study.left_out) section.table.front().push_back("without " + log);
+  for (const std::string& log : study.left_out_logs.logs) section.table.front().push_back("without " + log);
   std::size_t continuous = 0;
   for (Index i = 0; i < problem.prior.space.size(); ++i) {
     const Parameter& parameter = problem.prior.space[i];
@@ -93,9 +93,9 @@ Section parameters(const Study& study, const Problem& problem) {
     for (const std::string& warning : identification::identifiability_warnings(*study.model.learned.posterior))
       section.notes.push_back(warning);
   for (const std::string& line : ends(study.model.zeros, problem.prior.space)) section.notes.push_back(line);
-  if (problem.logs.size() > study.left_out.size())
-    section.notes.push_back(
-        fmt::format("left out in turn are the first {} of {} logs", study.left_out.size(), problem.logs.size()));
+  if (problem.logs.size() > study.left_out_logs.logs.size())
+    section.notes.push_back(fmt::format("left out in turn are the first {} of {} logs", study.left_out_logs.logs.size(),
+                                        problem.logs.size()));
   return section;
 }
 

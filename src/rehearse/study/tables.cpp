@@ -25,7 +25,7 @@ void add_parameter(Row& row, const LogModel& model, Index parameter, Index conti
 
 std::string parameters_csv(const Study& study, const Problem& problem) {
   Row header = {"parameter", "unit", "prior", "box.low", "box.high", "value", "low", "high"};
-  for (const std::string& name : study.left_out)
+  for (const std::string& name : study.left_out_logs.logs)
     for (const char* what : {"value", "low", "high"}) header.push_back(fmt::format("{} without {}", what, name));
   Csv csv(header);
   Index continuous = 0;

@@ -216,7 +216,7 @@ bool Process::has_unasked_answer(const Complete& complete, std::size_t most) {
 
 Process::Outcome Process::exchange(std::string_view message, const Complete& complete, Limits limits) {
   const Outcome outcome = heard(message, complete, limits);
-  if (outcome == Outcome::answered) return outcome;
+  if (outcome == Outcome::answered || outcome == Outcome::unasked) return outcome;
   if (all_end) std::this_thread::sleep_for(2 * kGrace);  // kill_programs ended it: nobody is to hear of a fault
   trusted_ = false;
   return outcome;

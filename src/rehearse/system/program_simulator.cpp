@@ -87,10 +87,11 @@ class EpisodePlant final : public Plant {
 
   void finish() noexcept override try {
     if (!conversation_ || conversation_->end()) return;
-    not_ended_ = conversation_->problem();
-    conversation_.reset();
+    not_ended(conversation_->problem().c_str());
+  } catch (const std::exception& error) {
+    not_ended(error.what());
   } catch (...) {
-    conversation_.reset();
+    not_ended("it is not known why");
   }
 
   Vector truth() const override { return truth_; }
@@ -100,6 +101,14 @@ class EpisodePlant final : public Plant {
     if (!answer) fail();
     truth_ = answer->truth;
     return around_.measured(answer->measured, *rng_);
+  }
+
+  void not_ended(const char* why) noexcept {
+    try {
+      not_ended_ = why;
+    } catch (const std::bad_alloc&) {  // the next reset says nothing
+    }
+    conversation_.reset();
   }
 
   [[noreturn]] void fail() {

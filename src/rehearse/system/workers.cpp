@@ -11,9 +11,9 @@ namespace {
 constexpr Index kCostly = 8;  // faults that one slow fault counts as
 
 /// The rows to compute next.
-class Progress {
+class RowsToAsk {
  public:
-  Progress(const ConstMatrixView& X, const ConstMatrixView& U, bool row_by_row)
+  RowsToAsk(const ConstMatrixView& X, const ConstMatrixView& U, bool row_by_row)
       : X_(X), U_(U), rows_(X.rows()), ask_(rows_), row_by_row_(row_by_row) {}
 
   bool done() const { return done_ == rows_; }
@@ -74,9 +74,9 @@ Workers::~Workers() {
 
 void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
   std::unique_ptr<Worker> worker = idle_.take();
-  for (Progress rows(X, U, options_.row_by_row); !rows.done();) {
+  for (RowsToAsk rows(X, U, options_.row_by_row); !rows.done();) {
     if (rows.is_hopeless()) {
-      if (!bears(1)) worker = one_that_answers(std::move(worker), X, U, phi);
+      if (!still_patient_after(1)) worker = one_that_answers(std::move(worker), X, U, phi);
       dX.row(rows.first()).setConstant(kNaN);
       rows.skip();
       continue;
@@ -124,7 +124,7 @@ void Workers::lose() const {
   ++faults_.lost;
 }
 
-bool Workers::bears(Index faults) const {
+bool Workers::still_patient_after(Index faults) const {
   const std::lock_guard lock(mutex_);
   faults_in_a_row_ += faults;
   return options_.patience == 0 || faults_in_a_row_ < options_.patience;
@@ -136,7 +136,7 @@ bool Workers::note(const Worker& worker) const {
     ++faults_.count;
     faults_.last = worker.problem();
   }
-  return bears(worker.costly() ? kCostly : 1);
+  return still_patient_after(worker.costly() ? kCostly : 1);
 }
 
 /// worker: to be asked first; null: none is left.

@@ -74,8 +74,8 @@ class Workers {
   static KnownRows some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
   void remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;  // a row was answered
   void lose() const;                                                                           // a row was given up
-  bool bears(Index faults) const;         // so many more in a row; false: patience ends
-  bool note(const Worker& worker) const;  // a fault; false: patience ends
+  bool still_patient_after(Index faults) const;  // of so many more in a row
+  bool note(const Worker& worker) const;         // counts its fault; false: patience ends
   std::unique_ptr<Worker> one_that_answers(std::unique_ptr<Worker> worker, const ConstMatrixView& X,
                                            const ConstMatrixView& U, const Vector& phi) const;
 

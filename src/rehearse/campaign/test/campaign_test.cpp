@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "line_campaign.hpp"
-#include "rehearse/statistics/table.hpp"
+#include "rehearse/files/table.hpp"
 
 namespace rehearse::campaign {
 namespace {
@@ -97,7 +97,7 @@ TEST(Campaign, OfMissingLearnersAloneHasNoRuns) {
   const fs::path folder = experiment::fake::test_folder() / "campaign";
   const Campaign campaign = run(folder, "format = 1\nscenario = \"line\"\nlearners = [\"pilco\"]\nseeds = 1\n");
   EXPECT_TRUE(campaign.complete());
-  EXPECT_EQ(statistics::read_csv(files::read_file(folder / "campaign.csv")).rows.size(), 0u);
+  EXPECT_EQ(files::read_csv(files::read_file(folder / "campaign.csv")).rows.size(), 0u);
 }
 
 }  // namespace

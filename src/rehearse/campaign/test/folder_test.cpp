@@ -8,7 +8,7 @@
 
 #include "line_campaign.hpp"
 #include "rehearse/experiment/run.hpp"
-#include "rehearse/statistics/table.hpp"
+#include "rehearse/files/table.hpp"
 
 namespace rehearse::campaign {
 namespace {
@@ -56,7 +56,7 @@ TEST(CampaignFolder, DamagedFoldersAreNamedAndLeftAlone) {
   EXPECT_NE(reason(2).find("other options: it is of another campaign or version"), std::string::npos) << reason(2);
   EXPECT_NE(reason(3).find("cannot read"), std::string::npos) << reason(3);
   EXPECT_EQ(files::read_file(folder / "runs/line-echo-near-1/checkpoint"), before.substr(0, before.size() / 2));
-  EXPECT_EQ(statistics::read_csv(files::read_file(folder / "campaign.csv")).rows.size(), 12u - 4 * 2);
+  EXPECT_EQ(files::read_csv(files::read_file(folder / "campaign.csv")).rows.size(), 12u - 4 * 2);
   EXPECT_EQ(summary_of(folder)["groups"][0]["failed"], 2);
 }
 

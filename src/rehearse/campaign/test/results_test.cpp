@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 using line::kClaim, line::kThreeLearners, line::results_of, line::run, line::summary_of;
 
-statistics::Table three_trials() {
+files::Table three_trials() {
   return {.header = {"interaction_s", "return", "solved"},
           .rows = {{"1.2", "3", "0"}, {"2.4", "", ""}, {"3.6", "2", "1"}}};
 }

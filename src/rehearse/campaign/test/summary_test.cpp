@@ -6,7 +6,7 @@
 
 #include "line_campaign.hpp"
 #include "rehearse/campaign/planner.hpp"
-#include "rehearse/statistics/table.hpp"
+#include "rehearse/files/table.hpp"
 
 namespace rehearse::campaign {
 namespace {
@@ -18,7 +18,7 @@ using line::kClaim, line::kGrid, line::kThreeLearners, line::run, line::summary_
 TEST(Summary, CsvHasARowForEveryTrialInTheOrderOfTheFile) {
   const fs::path folder = experiment::fake::test_folder() / "campaign";
   EXPECT_TRUE(run(folder).complete());
-  const statistics::Table table = statistics::read_csv(files::read_file(folder / "campaign.csv"));
+  const files::Table table = files::read_csv(files::read_file(folder / "campaign.csv"));
   EXPECT_EQ(table.header,
             (std::vector<std::string>{"run", "scenario", "learner", "prior", "variant", "seed", "trial",
                                       "interaction_s", "return", "solved", "predicted_return", "rollouts",
@@ -29,7 +29,7 @@ TEST(Summary, CsvHasARowForEveryTrialInTheOrderOfTheFile) {
   EXPECT_EQ(table.rows[11][0], "line-echo-alone-none-2");
   EXPECT_EQ(table.rows[11][3], "");
 
-  const statistics::Table one = statistics::read_csv(files::read_file(folder / "runs/line-echo-near-2/trials.csv"));
+  const files::Table one = files::read_csv(files::read_file(folder / "runs/line-echo-near-2/trials.csv"));
   EXPECT_EQ(std::vector<std::string>(table.rows[3].begin() + 6, table.rows[3].end()), one.rows[1]);
   EXPECT_EQ(files::read_file(folder / "campaign.toml"), kGrid);
 }
@@ -66,7 +66,7 @@ TEST(Summary, FailedRunsCountAsNotSolvedAndKeepTheirRows) {
       run(folder, kThreeLearners + "seeds = \"1-2\"\ntrials = 8\n[vary]\nbreaks = [false, true]\n");
   const RunOutcome& failed = campaign.outcome(1, 0);
   ASSERT_LT(failed.done(), 8);
-  const auto rows = statistics::read_csv(files::read_file(folder / "campaign.csv"));
+  const auto rows = files::read_csv(files::read_file(folder / "campaign.csv"));
   Index kept = 0;
   for (const auto& row : rows.rows) kept += row[0] == campaign.plan.run(1, 0).name;
   EXPECT_EQ(kept, failed.done());

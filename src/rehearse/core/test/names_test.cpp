@@ -10,6 +10,8 @@ TEST(Names, WordsAreOfLettersDigitsAndDashes) {
   for (const char* none : {"", "a b", "a,b", "../p", "a.b", "ü"}) EXPECT_FALSE(is_word(none)) << none;
 }
 
+TEST(Names, InLowerCaseKeepWhatIsNoLetter) { EXPECT_EQ(in_lower_case("Time [S] Ä"), "time [s] Ä"); }
+
 TEST(Names, OfFoldersLeaveNoFolder) {
   EXPECT_EQ(folder_name_of("cart-mi-a,b-7"), "cart-mi-a,b-7");
   EXPECT_EQ(folder_name_of("a/../b c:\n"), "a_.._b_c__");

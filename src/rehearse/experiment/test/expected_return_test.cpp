@@ -50,7 +50,7 @@ TEST(ExpectedReturn, EvaluationsChangeNothingElse) {
   Spec spec = line_spec(4);
   spec.options = {{"evaluations", "5"}};
   start_run(fake::catalogue(), spec, folder / "with", {});
-  for (const std::string& name : statistics::read_csv(files::read_file(folder / "without/trials.csv")).header)
+  for (const std::string& name : files::read_csv(files::read_file(folder / "without/trials.csv")).header)
     EXPECT_EQ(column_of(folder / "with", name), column_of(folder / "without", name)) << name;
   for (const char* file : {"trajectories/trial-004.csv", "predictions/trial-004.csv", "errors.csv", "policy.json"})
     EXPECT_EQ(files::read_file(folder / "with" / file), files::read_file(folder / "without" / file)) << file;

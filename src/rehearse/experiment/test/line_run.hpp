@@ -8,8 +8,8 @@
 
 #include "fake.hpp"
 #include "rehearse/experiment/run.hpp"
+#include "rehearse/files/table.hpp"
 #include "rehearse/files/write.hpp"
-#include "rehearse/statistics/table.hpp"
 
 namespace rehearse::experiment::fake {
 
@@ -39,7 +39,7 @@ inline std::string results_of(const fs::path& folder) {
 
 /// The cells of a column of a run's trials.csv.
 inline std::vector<std::string> column_of(const fs::path& folder, const std::string& name) {
-  const statistics::Table table = statistics::read_csv(files::read_file(folder / "trials.csv"));
+  const files::Table table = files::read_csv(files::read_file(folder / "trials.csv"));
   const auto place = static_cast<std::size_t>(table.column(name));
   std::vector<std::string> cells;
   for (const auto& row : table.rows) cells.push_back(row.at(place));

@@ -8,8 +8,7 @@ namespace rehearse::recording {
 namespace {
 
 TEST(Columns, AreFoundInAnyOrderAndConverted) {
-  const auto table =
-      statistics::read_csv("note,q (deg),torque,T [ms],dq [rpm]\na,180,1,-5,60\nb,90,-1,0,30\nc,,2,50,\n");
+  const auto table = files::read_csv("note,q (deg),torque,T [ms],dq [rpm]\na,180,1,-5,60\nb,90,-1,0,30\nc,,2,50,\n");
   Problems problems("f");
   std::vector<std::string> notes;
   const Channels found = find_channels(table, swing_task(), problems, notes);
@@ -26,7 +25,7 @@ TEST(Columns, AreFoundInAnyOrderAndConverted) {
 }
 
 TEST(Columns, WithoutANameAreNoneToSpeakOf) {  // an index of pandas, a comma at the end
-  const auto table = statistics::read_csv(",time,dq,q,torque,\n0,0,0,0,0,\n1,0.05,0,0,0,\n");
+  const auto table = files::read_csv(",time,dq,q,torque,\n0,0,0,0,0,\n1,0.05,0,0,0,\n");
   Problems problems("f");
   std::vector<std::string> notes;
   find_channels(table, swing_task(), problems, notes);
@@ -38,7 +37,7 @@ TEST(Columns, WithoutANameAreNoneToSpeakOf) {  // an index of pandas, a comma at
 std::vector<double> times_in(const std::string& text, Problems& problems) {
   std::vector<std::string> notes;
   std::vector<double> times;
-  const Channels found = find_channels(statistics::read_csv(text), swing_task(), problems, notes);
+  const Channels found = find_channels(files::read_csv(text), swing_task(), problems, notes);
   for (const Sample& sample : found.actions[0].samples) times.push_back(sample.time_s);
   return times;
 }

@@ -87,6 +87,9 @@ TEST_F(CampaignFiles, ATableWithoutItsColumnsIsNamed) {
   write(folder_ / "campaign.csv", "run,trial,phi.m\nrun-1,1,2\n");
   EXPECT_EQ(problems_of(read_folder(folder_)),
             (Lines{"runs/run-4: failed: the plant failed", "campaign.csv: there is no column learner"}));
+  write(folder_ / "campaign.csv", "learner,prior,variant,trial,phi.m\ngp-mi,light,,1e300,2\n");
+  EXPECT_EQ(problems_of(read_folder(folder_)).back(),
+            "campaign.csv: trial = 1e+300, must be a whole number in 0 to 1000000");
 }
 
 TEST_F(CampaignFiles, ACampaignNamesWhatIsWrongInItsFolder) {

@@ -55,7 +55,7 @@ TEST(Study, OfOneLogEitherHalfIsLeftOut) {
   swings.options.beyond = Beyond::nothing;
   swings.options.zero_s = 1;
   const Study study = swings.run();
-  EXPECT_EQ(study.left_out, (std::vector<std::string>{"log 1 (first half)", "log 1 (second half)"}));
+  EXPECT_EQ(study.left_out_logs.logs, (std::vector<std::string>{"log 1 (first half)", "log 1 (second half)"}));
   EXPECT_EQ(summary(study, swings.problem()).size(), 4U);
 }
 

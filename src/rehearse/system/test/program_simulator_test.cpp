@@ -8,6 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/core/test/test_tools.hpp"
 #include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/system/test/programs.hpp"
 
@@ -256,6 +257,23 @@ TEST(ProgramPlant, AnEndThatIsNotAnsweredWellIsSaidByTheNextReset) {
     }
     EXPECT_EQ(plant->reset(rng), (Vector{{1, 2, 3}})) << "another process";
   }
+}
+
+TEST(ProgramPlant, AnAnswerTooManyIsSaidByTheNextResetAndTheDriverEndsByItself) {
+  const files::TemporaryFolder folder;
+  const std::string off = (folder.path() / "torque-off").string();
+  Program program = test_program(
+      {"sh", "-c",
+       R"(while read -r line; do case $line in *rehearse*) echo '{"rehearse":1,"messages":["reset","step","end"]}';; )"
+       R"(*reset*) printf '%s\n%s\n' '{"state":[1,2,3]}' '{"state":[1,2,3]}';; esac; done; touch )" +
+           off});
+  const auto plant = make_program_plant(program, shift_of(3), {Vector{{1, 2, 3}}, Vector::Zero(3), {}});
+  Rng rng({.seed = 1});
+  plant->reset(rng);
+  plant->finish();
+  EXPECT_TRUE(std::filesystem::exists(off)) << "its input ended, and it was not killed";
+  const std::string said = message_of<Unavailable>([&] { plant->reset(rng); });
+  EXPECT_NE(said.find("that nobody asked for"), std::string::npos) << said;
 }
 
 TEST(ProgramPlant, ARobotKeepsItsState) {

@@ -1,4 +1,4 @@
-#include "rehearse/statistics/table.hpp"
+#include "rehearse/files/table.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 
-namespace rehearse::statistics {
+namespace rehearse::files {
 namespace {
 
 /// Takes rows from the front of a text.
@@ -70,11 +70,17 @@ int Table::column(std::string_view name) const {
   return found == header.end() ? -1 : static_cast<int>(found - header.begin());
 }
 
-std::vector<std::optional<double>> Table::numbers(std::string_view name) const {
+std::vector<std::string> Table::texts(std::string_view name) const {
   const int position = column(name);
   if (position < 0) throw InvalidInput(fmt::format("there is no column {}", name));
+  std::vector<std::string> cells;
+  for (const auto& row : rows) cells.push_back(row[static_cast<std::size_t>(position)]);
+  return cells;
+}
+
+std::vector<std::optional<double>> Table::numbers(std::string_view name) const {
   std::vector<std::optional<double>> values;
-  for (const auto& row : rows) values.push_back(number(row[static_cast<std::size_t>(position)], name));
+  for (const std::string& cell : texts(name)) values.push_back(number(cell, name));
   return values;
 }
 
@@ -91,4 +97,4 @@ Table read_csv(std::string_view text) {
   return table;
 }
 
-}  // namespace rehearse::statistics
+}  // namespace rehearse::files

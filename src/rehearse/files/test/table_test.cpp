@@ -1,10 +1,10 @@
-#include "rehearse/statistics/table.hpp"
+#include "rehearse/files/table.hpp"
 
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
 
-namespace rehearse::statistics {
+namespace rehearse::files {
 namespace {
 
 std::string complaint(const std::string& text) {
@@ -31,6 +31,7 @@ TEST(Table, ReadsNumbers) {
   ASSERT_EQ(numbers.size(), 2u);
   EXPECT_EQ(numbers[0], 1e-05);
   EXPECT_FALSE(numbers[1].has_value());
+  EXPECT_EQ(read_csv("a,b\n1,x\n2,\n").texts("b"), (std::vector<std::string>{"x", ""}));
 }
 
 TEST(Table, EveryTruncationIsNoticedOrLosesWholeRows) {
@@ -53,4 +54,4 @@ TEST(Table, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace rehearse::statistics
+}  // namespace rehearse::files

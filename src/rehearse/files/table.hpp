@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rehearse::statistics {
+namespace rehearse::files {
 
 /// Comma-separated text: a header, and rows of as many cells.
 struct Table {
@@ -14,6 +14,9 @@ struct Table {
 
   /// Position of a column, or −1.
   int column(std::string_view name) const;
+
+  /// The cells of a column. Throws InvalidInput if there is no such column.
+  std::vector<std::string> texts(std::string_view name) const;
 
   /// A column as numbers; an empty cell has none. Throws InvalidInput if there is no such column, or a cell that is
   /// neither empty nor a number.
@@ -24,4 +27,4 @@ struct Table {
 /// does not end, or the last row has no end: then the text was cut short.
 Table read_csv(std::string_view text);
 
-}  // namespace rehearse::statistics
+}  // namespace rehearse::files
