@@ -1,6 +1,6 @@
 // A learner by hand, on a robot that comes with Rehearse: the pendulum. First a checker says whether the learner keeps
 // the laws; then it learns in three trials. The loop at the end is all there is to learning: ask for a policy, try it,
-// tell what happened.
+// tell what happened. examples/own_robot/gp_mi.cpp is such a loop with GP-MI.
 
 #include <cstdio>
 
@@ -31,7 +31,7 @@ int main() {
 
   const auto learner = builder->build(setting);
   for (std::uint64_t trial = 1; trial <= 3; ++trial) {
-    const learners::Proposal proposal = learner->ask();
+    const learners::Proposal proposal = learner->ask();  // a copy: the reference lives until `tell`
     const Episode episode = run_trial(proposal, trial);
     std::printf("trial %d: return %.2f, %.2f were promised\n", static_cast<int>(trial), episode.total_reward(),
                 *proposal.predicted_return);

@@ -2,7 +2,7 @@
 """cpp.py ROOT [COMPILER FLAG…]: every block of C++ or C on a page is compiled, or is what a source says.
 
 A file of tests/docs/cpp has what a block needs around it; its line `//: PAGE WORDS` stands for the block of that page in which
-these words are. With a compiler such files are compiled, without code. QUOTES are pages whose blocks stand in a source, line by
+these words are. With a compiler such files are compiled, without code. QUOTES are pages whose blocks stand in sources, line by
 line. ELSEWHERE are pages whose blocks other tests compile, with their programs.
 """
 import pathlib
@@ -14,7 +14,9 @@ import tempfile
 sys.dont_write_bytecode = True
 import blocks  # noqa: E402
 
-QUOTES = {"docs/gp-mi.md": "src/rehearse/identification/learn.cpp", "docs/same-robot.md": "examples/same_robot/in_cpp.cpp"}
+QUOTES = {"docs/gp-mi.md": ["src/rehearse/identification/learn.cpp"], "docs/same-robot.md": ["examples/same_robot/in_cpp.cpp"],
+          "docs/cpp.md": ["examples/own_robot/gp_mi.cpp", "examples/own_robot/spring.hpp"],
+          "docs/real-robot.md": ["examples/own_robot/own_loop.cpp"]}
 ELSEWHERE = {"docs/actuators.md": "tests/cli/export.sh", "docs/export.md": "tests/cli/export.sh"}
 
 
@@ -58,9 +60,9 @@ def main():
                 wrong.append(f"{path.relative_to(folder)} does not compile:\n{done.stderr[:4000]}")
     for page, line, text in known:
         if page in QUOTES:
-            source = lines((root / QUOTES[page]).read_text())
+            source = [each for path in QUOTES[page] for each in lines((root / path).read_text())]
             if missing := [each for each in lines(text) if each not in source]:
-                wrong.append(f"{page}:{line}: not in {QUOTES[page]}: {missing}")
+                wrong.append(f"{page}:{line}: not in {' or '.join(QUOTES[page])}: {missing}")
         elif (page, line) not in used and page not in ELSEWHERE:
             wrong.append(f"{page}:{line}: no file of tests/docs/cpp has this block")
     print("\n\n".join(wrong))

@@ -55,6 +55,12 @@ search.race.descents = 2
 TOML
 says 0 "mi" $robot campaign carts.toml --out carts --threads 1
 
+says 0 "^trial 3: return .*, mass 1\.6.*, solved" own_robot/gp_mi # fails where the policy breaks a law
+cc -std=c99 -DREHEARSE_POLICY_MAIN -x c policy.h -o policy_test -lm
+says 0 "as it should be" ./policy_test
+says 0 "^trial 2: return .*, solved" own_robot/own_loop told
+says 0 "^trial 4: return .*, solved" own_robot/own_loop told
+
 make own_learner -mavx2 # with which Eigen would allocate in another way than the library
 says 0 "^trial 3: return " own_learner/by_hand # fails where the learner breaks a law
 says 0 "^  random-search  *the best of many" own_learner/own_learner list

@@ -19,8 +19,8 @@ std::vector<std::string> misfits(const Episode& episode, const Task& task) {
     for (Index row = 0; row < rows; ++row)
       for (Index column = 0; column < columns; ++column)
         if (!std::isfinite(numbers(row, column))) {
-          lines.push_back(fmt::format("the episode's {}({}, {}) = {}, must be finite", name, row, column,
-                                      numbers(row, column)));
+          lines.push_back(
+              fmt::format("the episode's {}({}, {}) = {}, must be finite", name, row, column, numbers(row, column)));
           return;
         }
   };

@@ -14,7 +14,8 @@ std::string named(const std::vector<Variable>& variables, const Vector& values) 
   constexpr Index kMost = 6;
   std::vector<std::string> texts;
   for (Index i = 0; i < std::min(values.size(), static_cast<Index>(variables.size())); ++i)
-    texts.push_back(i < kMost ? fmt::format("{} = {:.4g}", variables[static_cast<std::size_t>(i)].name, values(i)) : "…");
+    texts.push_back(i < kMost ? fmt::format("{} = {:.4g}", variables[static_cast<std::size_t>(i)].name, values(i))
+                              : "…");
   if (texts.size() > kMost) texts.resize(kMost + 1);
   return fmt::format("{}", fmt::join(texts, ", "));
 }
