@@ -25,11 +25,13 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+void put_error(const std::string& text) { (void)std::fputs(text.c_str(), stderr); }
+
 void complain(std::string_view message) {
   const std::string safe = printable(message);
   for (std::string_view rest = safe; !rest.empty();) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    fmt::print(stderr, "{}: {}\n", program_name(), rest.substr(0, end));
+    put_error(fmt::format("{}: {}\n", program_name(), rest.substr(0, end)));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
 }

@@ -17,6 +17,9 @@ void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   fmt::print("{}", printable(fmt::format(format, std::forward<Arguments>(arguments)...)));
 }
 
+/// Writes to standard error; what cannot be written, as on a full disk, is lost: it is no reason to end the work.
+void put_error(const std::string& text);
+
 /// Prints each line of the message on standard error, made printable.
 void complain(std::string_view message);
 

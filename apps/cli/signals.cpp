@@ -47,7 +47,7 @@ void catch_signals() {
 void say(const std::string& line) {
   const std::string text =
       fmt::format("{}{}: {}\n", ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", program_name(), printable(line));
-  std::fputs(text.c_str(), stderr);
+  put_error(text);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ bool StatusLine::is_due() const { return alone_ && Clock::now() - last_ >= silen
 void StatusLine::show(const std::string& line) {
   if (!is_due()) return;
   last_ = Clock::now();
-  if (!terminal_) return fmt::print(stderr, "{}\n", printable(line));
+  if (!terminal_) return put_error(printable(line) + "\n");
   fmt::print("\r\033[K{}", first_characters(printable(line), line_width()));
   std::fflush(stdout);
   shown_ = true;

@@ -108,6 +108,10 @@ for command in list "list --json" "list gp-mi" --help --version "learn --help"; 
   "$program" $command >/dev/full 2>stderr
   [ $? = 1 ] && grep -q "cannot write" stderr || fail "'$command' to a full disk exits with $?: $(cat stderr)"
 done
+"$program" list nope 2>/dev/full
+[ $? = 2 ] || fail "an error that cannot be written exits with $?"
+"$program" list >/dev/full 2>&1
+[ $? = 1 ] || fail "a list and an error that cannot be written exit with $?"
 printf 'format = 1\n[run]\nscenario = 3\nlearner = "gp-mi"\n' >number.toml
 expect 2 "number.toml: line 3: scenario must be text in quotes" 1 learn number.toml
 printf 'format = 1\nscenario = 3\nlearners = "gp-mi"\nseeds = 1\n' >number.toml

@@ -156,7 +156,8 @@ class CampaignReader {
     files::TomlReader reader(table, "[[claim]]", violations_);
     Claim claim{.line = files::line_of(table)};
     if (!reader.take("text", claim.text)) violations_.add(claim.line, "the claim has no text");
-    if (!reader.take("learner", claim.learner)) violations_.add(claim.line, "the claim names no learner");
+    if (!reader.take("learner", claim.learner) || claim.learner.empty())
+      violations_.add(claim.line, "the claim names no learner");
     reader.take("priors", claim.priors);
     reader.take("variants", claim.variants);
     reader.take_fields([&](FieldVisitor& v) {

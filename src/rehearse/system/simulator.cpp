@@ -14,7 +14,7 @@ namespace {
 /// The largest state change; beyond it a simulator has diverged.
 constexpr double kLargestChange = 1e12;
 
-bool is_usable(const ConstMatrixView& dX, Index row) {
+bool is_usable(const MatrixView& dX, Index row) {
   bool usable = true;
   for (Index c = 0; c < dX.cols(); ++c) usable = usable && std::abs(dX(row, c)) < kLargestChange;  // false for NaN
   return usable;

@@ -126,6 +126,13 @@ TEST(CampaignFile, AScenarioThatIsNoTextIsSaidOnce) {
   EXPECT_EQ(complaint("format = 1\n" + rest), "c.toml: scenario is missing");
 }
 
+TEST(CampaignFile, AClaimNamesALearner) {
+  for (const std::string learner : {"", "learner = \"\"\n"})
+    EXPECT_EQ(complaint("format = 1\nscenario = \"line\"\nlearners = \"echo\"\nseeds = 1\n[[claim]]\ntext = \"t\"\n" +
+                        learner + "solved_by = 1\nat_least_runs = 1\n"),
+              "c.toml: line 5: the claim names no learner");
+}
+
 TEST(CampaignFile, SaysWhatIsWrongWithVariantsAndDraws) {
   EXPECT_EQ(complaint(R"(format = 1
 scenario = "line"
