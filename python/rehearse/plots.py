@@ -1,8 +1,11 @@
-"""Figures of runs, on Matplotlib."""
+"""Figures of runs, on Matplotlib. Imported where one is asked for, since Matplotlib may be missing."""
 
 from __future__ import annotations
 
+import io
 from typing import TYPE_CHECKING, Any, Union
+
+from matplotlib.figure import Figure
 
 from .arrays import Array
 
@@ -11,12 +14,21 @@ if TYPE_CHECKING:
     from .run import Run
 
 
-def plot_parameters(parameters: Array) -> Any:
-    import matplotlib.pyplot as plt
+class _Shown(Figure):  # type: ignore[misc]
+    """A figure that pyplot does not know: it would keep all of them, and a notebook would show each twice. Notebooks show
+    this one as what a cell returns, also where pyplot was never imported."""
 
+    def _repr_png_(self) -> bytes:
+        page = io.BytesIO()
+        self.savefig(page, format="png")
+        return page.getvalue()
+
+
+def plot_parameters(parameters: Array) -> Any:
     if len(parameters) == 0:
         raise ValueError("the prior has no parameters to tune")
-    figure, axes = plt.subplots(len(parameters), 1, figsize=(7, 0.6 + 0.9 * len(parameters)), squeeze=False)
+    figure = _Shown(figsize=(7, 0.6 + 0.9 * len(parameters)))
+    axes = figure.subplots(len(parameters), 1, squeeze=False)
     for axis, row in zip(axes[:, 0], parameters):
         axis.plot([row["low"], row["high"]], [0, 0], "|-", markersize=12, label="95 % interval")
         axis.plot(row["value"], 0, "o", color="C0", label="value")
@@ -28,8 +40,6 @@ def plot_parameters(parameters: Array) -> Any:
 
 
 def plot_run(run: Run, trial: Union[int, None]) -> Any:
-    import matplotlib.pyplot as plt
-
     trials, best = run.trials, run.best
     if best is None:
         raise ValueError(f"{run.folder} has no trial yet")
@@ -37,7 +47,8 @@ def plot_run(run: Run, trial: Union[int, None]) -> Any:
     moved = run.trajectory(number)
     about = run._describe()
     panels = 1 + len(about["states"]) + len(about["actions"])
-    figure, axes = plt.subplots(panels, 1, figsize=(7, 2.0 * panels))
+    figure = _Shown(figsize=(7, 2.0 * panels))
+    axes = figure.subplots(panels, 1)
     axes[0].plot(trials["trial"], trials["return"], "o-", label="on the robot")
     axes[0].plot(trials["trial"], trials["predicted_return"], "x", label="predicted")
     axes[0].set(xlabel="trial", ylabel="return")
@@ -60,9 +71,8 @@ def plot_run(run: Run, trial: Union[int, None]) -> Any:
 
 
 def plot_campaign(campaign: Campaign) -> Any:
-    import matplotlib.pyplot as plt
-
-    figure, axis = plt.subplots(figsize=(7, 4))
+    figure = _Shown(figsize=(7, 4))
+    axis = figure.subplots()
     for group in campaign.summary["groups"]:
         trials = [trial["trial"] for trial in group["trials"]]
         low, median, high = ([trial["return"][which] for trial in group["trials"]]

@@ -132,10 +132,10 @@ def test_tables_of_all_that_varies(tmp_path):
 
 
 def test_figures_and_the_page(tmp_path):
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("Agg")
+    pyplot = pytest.importorskip("matplotlib.pyplot")
     done = campaign(cart(), tmp_path / "out", vary={"search.finalists": np.array([1, 2])})
     figure = done.plot()
+    assert pyplot.get_fignums() == []
     assert len(figure.axes[0].lines) == 2 and figure.axes[0].get_title() == "cart-campaign"
     np.testing.assert_array_equal(figure.axes[0].lines[0].get_ydata()[-1], done.groups["return_median"][0])
     assert "cart-gp-mi-light-search.finalists=1-2" in done.report().read_text()

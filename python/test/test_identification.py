@@ -40,7 +40,7 @@ def test_what_is_no_column_of_numbers_is_no_obstacle():
 
 
 def test_parameters_have_a_figure():
-    pytest.importorskip("matplotlib").use("Agg")
+    pytest.importorskip("matplotlib")
     found = rehearse.identify(cart(plant=None), [log(1)], options={"beyond": "nothing"})
     assert list(found.tables["parameters"]["unit"]) == [""], "a text, also where there is none"
     assert found.tables["accuracy"]["unit"].dtype.kind == found.tables["warnings"]["text"].dtype.kind == "U"

@@ -216,14 +216,17 @@ def test_a_wrong_argument_is_named(tmp_path):
 
 
 def test_a_trial_that_was_cut_short_is_not_the_figure_of_the_best(tmp_path):
-    pytest.importorskip("matplotlib").use("Agg")
+    pyplot = pytest.importorskip("matplotlib.pyplot")
     run = learn(cart(reward="-position^2", floor=-1, plant=None), tmp_path / "run", trials=0)
     moved = learn(cart(reward="-position^2", floor=-1), tmp_path / "moved").trajectory(1)
     for rows, more in ((moved[:3], {"stopped": "the battery was empty", "at_fault": False}), (moved, {})):
         run.ask(threads=1)
         run.tell(rows, threads=1, **more)
     assert run.trials["return"].argmax() == 0 and run.best.trial == 2
-    assert "trial 2" in [text.get_text() for text in run.plot().axes[1].get_legend().get_texts()]
+    figure = run.plot()
+    assert "trial 2" in [text.get_text() for text in figure.axes[1].get_legend().get_texts()]
+    assert pyplot.get_fignums() == [], "pyplot keeps none"
+    assert figure._repr_png_().startswith(b"\x89PNG"), "notebooks show it"
 
 
 def test_frames_have_their_times_in_the_index_and_lack_numbers(tmp_path):

@@ -113,8 +113,7 @@ def test_tables_know_their_columns(tmp_path):
 
 def test_data_frames_and_figures(tmp_path):
     pandas = pytest.importorskip("pandas")
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("Agg")
+    pytest.importorskip("matplotlib")
     run = learn(cart(), tmp_path / "run")
     assert list(pandas.DataFrame(run.trials)["trial"]) == [1, 2]
     figure = run.plot()
