@@ -16,6 +16,7 @@ from .checks import function_or_none, path_of, path_or_none, read_text, text as 
 from .progress import show
 from .robot import Robot
 from .given_robot import Robots, begun_with, name_of, robot_of
+from .messages import for_python
 from .run import PathLike, Progress, Run, write_report
 from .tables import column_of, html_table, read_csv, structured
 from .toml import quoting, table
@@ -167,7 +168,8 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
     try:
         _core.campaign(core, text, source, scenario, folder, part, threads, progress)
     except _core.InvalidInput as error:
-        raise _core.InvalidInput(quoting(text.decode(errors="replace"), source, str(error))) from None
+        quoted = quoting(text.decode(errors="replace"), source, str(error))
+        raise _core.InvalidInput(for_python(quoted, own)) from None
     except KeyboardInterrupt as stopped:
         if stopped.args or not Path(folder).exists():
             raise

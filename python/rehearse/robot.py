@@ -16,7 +16,7 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import mapping, number, read_text, texts
+from .checks import mapping, number, read_text, texts, whole
 from .environment import Task, environment_maker, is_environment, is_real
 from .parts import (Action, Body, Distance, EpisodeFunction, Limit, Model, State, StateFunction, StepFunction,
                     Success)
@@ -42,6 +42,8 @@ class Robot:
 
     Raises InvalidInput at once, with a line for everything that is wrong.
     """
+
+    plays_environment = False  # its plant is one
 
     def __init__(
         self,
@@ -78,7 +80,7 @@ class Robot:
             raise TypeError(f"priors is a {type(priors).__name__}, must be a dictionary: {{\"guess\": Model(…)}}")
         _require(list((priors or {}).values()), Model, "priors", "{\"guess\": Model(…)}")
         self.name = name
-        self._dt_s = number("dt_s", dt_s)
+        self._dt_s, horizon = number("dt_s", dt_s), whole("horizon", horizon)
         self._functions: list[tuple[Any, ...]] = []
         self.one_at_a_time = False  # its plant: one object, or a real robot
         _refuse_observe(plant, observe)
@@ -209,7 +211,7 @@ class Robot:
             return [self._dynamics(name, plant),
                     table("[plant]", {"dynamics": name, "measurement_noise": given,
                                       "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
-        self.one_at_a_time = is_environment(plant) or is_real(plant)
+        self.one_at_a_time, self.plays_environment = is_environment(plant) or is_real(plant), True
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": given})]
 

@@ -19,6 +19,7 @@ from .checks import (function_or_none, number, option_texts, path_of, path_or_no
                      threads_of, truth, whole, whole_or_none, write_page)
 from .evaluation import Evaluation
 from .given_robot import Robots, begun_with, robot_of
+from .messages import said_for_python
 from .policy import Policy
 from .progress import show
 from .robot import Robot
@@ -96,14 +97,14 @@ class Run:
 
     def policy(self, trial: Union[int, None] = None) -> Policy:
         """The policy of a trial, by default of the best."""
-        return Policy(_core.policy(self._core, str(self.folder), whole_or_none("trial", trial)))
+        return Policy(self._do(_core.policy, str(self.folder), whole_or_none("trial", trial)))
 
     # Actions.
 
     def resume(self, trials: Union[int, None] = None, *, threads: int = 0, progress: Progress = show) -> Run:
         """Goes on to the end, or to another number of trials. The same bytes as if it had never stopped."""
-        _core.resume(self._core, str(self.folder), whole_or_none("trials", trials), threads_of(threads),
-                     function_or_none("progress", progress))
+        self._do(_core.resume, str(self.folder), whole_or_none("trials", trials), threads_of(threads),
+                 function_or_none("progress", progress))
         return self
 
     def ask(self, *, threads: int = 0, progress: Progress = None) -> Policy:
@@ -111,7 +112,7 @@ class Run:
 
         `asked` is then what is predicted of it, the risks of limits too; its notes are warnings.
         """
-        policy, trial = _core.ask(self._core, str(self.folder), threads_of(threads), function_or_none("progress", progress))
+        policy, trial = self._do(_core.ask, str(self.folder), threads_of(threads), function_or_none("progress", progress))
         for note in trial["notes"]:
             warnings.warn(note, stacklevel=2)
         return Policy(policy)
@@ -132,7 +133,7 @@ class Run:
         with tempfile.TemporaryDirectory() as folder:
             files = as_files(episodes, folder, "episode")
             with without_path(folder):
-                told = dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads_of(threads)))
+                told = dict(self._do(_core.tell, str(self.folder), files, stopped, at_fault, threads_of(threads)))
         if told["known_before"]:
             warnings.warn("this was told before: nothing changes", stacklevel=2)
         for note in told["notes"]:
@@ -142,16 +143,17 @@ class Run:
     def take_back(self, *, threads: int = 0) -> dict[str, Any]:
         """Takes the last `tell` back, when it took the wrong file: the folder is as before, byte for byte, but for
         taken-back, where what was told is kept. Again, it takes back the one before. Returns trial (None: logs) and files."""
-        return dict(_core.take_back(self._core, str(self.folder), threads_of(threads)))
+        return dict(self._do(_core.take_back, str(self.folder), threads_of(threads)))
 
     def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None,
                  policy: Union[Policy, PathLike, None] = None, seconds: float = 0.0, seed: Union[int, None] = None,
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
         """Episodes of a policy on the plant that are no trials; where there is none, the prior plays the robot, with the
         parameters of the newest model. policy: another than a trial's. seconds: of an episode; 0: the task's. seed: None
-        is the run's. options: what is changed, {"plant.m": 0.6}. An environment that is an object, not a function that
+        is the run's. options: what is changed, {"plant.m": 0.6}; of an environment there are none, and
+        `open_run(folder, other_robot)` evaluates on another one. An environment that is an object, not a function that
         makes one, and a class with `end`, which is a real robot, are used by one thread."""
-        result = _core.evaluate(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
+        result = self._do(_core.evaluate, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
                           result["ended_s"], result["broke"])
 
@@ -160,7 +162,7 @@ class Run:
                    options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Array:
         """Such episodes with one parameter of the robot changed at a time, by factors of 0.75 to 1.25: the rows of
         robustness.csv (docs/evaluate.md). An environment has no parameters to change."""
-        text = _core.robustness(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
+        text = self._do(_core.robustness, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
         return from_csv(text, TEXTS)
 
     def report(self, out: Union[PathLike, None] = None) -> Path:
@@ -199,6 +201,10 @@ class Run:
     @property
     def _core(self) -> Any:
         return self._robot._core if self._robot is not None else _core.Robot("", "", "")
+
+    def _do(self, work: Callable[..., Any], *arguments: Any) -> Any:
+        with said_for_python(self._robot, self.folder):
+            return work(self._core, *arguments)
 
     def _request(self, trial: Union[int, None], policy: Union[Policy, PathLike, None], episodes: int, seconds: float,
                  seed: Union[int, None], options: Union[Mapping[str, Any], None]) -> Any:
@@ -245,15 +251,17 @@ def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], 
     trials, seed, threads = whole("trials", trials), whole("seed", seed, 0, 2**53), threads_of(threads)
     core, scenario = robot_of(robot)
     names = ",".join(texts("prior", [] if prior is None else prior, "a name, several, or None"))
-    folder = _core.learn(core, scenario, text("learner", learner), names, path_of("preset", preset, "a name or a path"), _json_of(policy),
-                         trials, truth("until_solved", until_solved), seed, option_texts(options), path_or_none("out", out),
-                         threads, function_or_none("progress", progress))
-    return Run(folder, robot if isinstance(robot, Robot) else None)
+    own = robot if isinstance(robot, Robot) else None
+    with said_for_python(own):
+        folder = _core.learn(core, scenario, text("learner", learner), names, path_of("preset", preset, "a name or a path"),
+                             _json_of(policy), trials, truth("until_solved", until_solved), seed, option_texts(options),
+                             path_or_none("out", out), threads, function_or_none("progress", progress))
+    return Run(folder, own)
 
 
 def open_run(folder: PathLike, robot: Union[Robot, None] = None) -> Run:
     """The run in a folder. robot: the `Robot` that it began with, where that has functions of Python, and the run is to
-    go on or to be evaluated; to look at it, it is not needed."""
+    go on or to be evaluated; to look at it, it is not needed. A robot whose environment is another evaluates on that."""
     return Run(folder, robot)
 
 

@@ -4,7 +4,7 @@ import functools
 
 import numpy as np
 import pytest
-from robots import QUICK, Environment, cart
+from robots import QUICK, Environment, cart, change
 
 import rehearse
 from rehearse import environment
@@ -131,3 +131,34 @@ def test_evaluations_have_the_seed_of_the_run(tmp_path):
     run = learn(cart(measurement_noise=0.1), tmp_path / "run", trials=1, seed=3)
     returns, same, other = run.evaluate(3).returns, run.evaluate(3, seed=3).returns, run.evaluate(3, seed=1).returns
     assert (returns == same).all() and (returns != other).all()
+
+
+class Heavy(Environment):
+    """A cart of another mass."""
+
+    def __init__(self, mass):
+        super().__init__()
+        self.mass = mass
+
+    def step(self, action):
+        self.state = self.state + change(self.state, np.atleast_2d(action), mass=self.mass, friction=0.3)
+        return self.state[0].copy(), 0.0, False, False, {}
+
+
+def test_a_policy_is_tried_on_another_environment(tmp_path):
+    run = learn(cart(functools.partial(Heavy, 1.6)), tmp_path / "run", trials=1)
+    own, heavy = (rehearse.open_run(run.folder, cart(functools.partial(Heavy, mass))).evaluate(2).returns for mass in (1.6, 3))
+    assert (own == run.evaluate(2).returns).all() and (heavy != own).all()
+    advice = r"the plant is an environment, .*: rehearse.open_run\(folder, other_robot\).evaluate\(100\)$"
+    with pytest.raises(rehearse.InvalidInput, match=f"^unknown option 'plant.mass': {advice}"):
+        run.evaluate(2, options={"plant.mass": 3})
+    with pytest.raises(rehearse.InvalidInput, match=f"^robustness changes parameters of the plant, and {advice}"):
+        run.robustness(2)
+
+
+def test_options_are_looked_up_in_python(tmp_path):
+    run = learn(cart(), tmp_path / "run", trials=1)
+    for call in (lambda: run.evaluate(2, options={"colour": 3}), lambda: learn(cart(), tmp_path / "other", options={"colour": 3}),
+                 lambda: rehearse.Policy.of(cart(), options={"colour": 3})):
+        with pytest.raises(rehearse.InvalidInput, match="^unknown option 'colour': `rehearse.options` of a robot or learner names all"):
+            call()

@@ -35,7 +35,6 @@ rate = { velocity = "force", position = "velocity" }
 
 
 @pytest.mark.parametrize("changes, message", [
-    ({"horizon": 50.5}, "horizon = 50.5, must be a whole number"),
     ({"states": [rehearse.State("velocity"), rehearse.State("velocity")]}, "line 8, `name = \"velocity\"`: the name 'velocity' is given twice"),
     ({"priors": {"slow motor": rehearse.Model(change, parameters={"mass": 1.0})}}, "'slow motor' must be of letters"),
     ({"priors": {"light": rehearse.Model(change, parameters={"mass.cart": 1.0})}},
@@ -345,6 +344,13 @@ def test_an_episode_is_over_by_any_truth(like):
 
 
 # Numbers.
+
+
+@pytest.mark.parametrize("horizon", [60.0, 50.5, "60", None])
+def test_a_horizon_is_a_whole_number(horizon):
+    with pytest.raises(TypeError, match=f"^horizon = {horizon!r}, must be a whole number$"):
+        cart(horizon=horizon)
+    assert cart(horizon=np.int64(60)).text == cart(horizon=60).text
 
 
 def test_numbers_are_refused_by_name(tmp_path):
