@@ -19,6 +19,8 @@ from .exported import Exported
 from .given_robot import Robots, robot_of
 from .messages import said_for_python
 
+Times = Union[float, npt.ArrayLike]
+
 
 class Policy:
     """A deterministic policy: states in, actions inside their bounds out. Any thread.
@@ -64,27 +66,39 @@ class Policy:
     def __deepcopy__(self, known: Any) -> Policy:
         return self
 
-    def act(self, states: npt.ArrayLike, time_s: float = 0.0, memory: Union[Array, None] = None) -> Array:
-        """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start. NaN where a state is masked, or
-        it or the time is not finite.
+    def act(self, states: npt.ArrayLike, time_s: Times = 0.0, memory: Union[Array, None] = None) -> Array:
+        """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start, one for all or one a row. NaN where
+        a state is masked, or it or the time is not finite.
 
         memory: of a robot whose actions have a rate, a filter, a delay, a lag or are remembered: what `start` gave
         before the first step. It holds the last commands, and is changed: act once each time step. Without it the
         states must have its columns, too, as trajectories do.
         """
-        x, time_s = numbers("states", states), number("time_s", time_s)
+        x = numbers("states", states)
         if memory is None:
-            return self._core.act(x, time_s)
+            return self._act(x, time_s)
         shape = (*x.shape[:-1], len(self._core.start()))
         if not isinstance(memory, np.ndarray) or memory.shape != shape or memory.dtype != float:
             raise InvalidInput(f"memory must be an array of doubles of the shape {shape}, as start() gives it")
         x = np.concatenate([x, memory], axis=-1)
-        actions = self._core.act(x, time_s)
+        actions = self._act(x, time_s)
         after = self._core.remember(np.atleast_2d(x), np.atleast_2d(actions)).reshape(memory.shape)
         memory[...] = np.where(np.isfinite(actions).all(axis=-1, keepdims=True), after, memory)
         return actions
 
-    def __call__(self, states: npt.ArrayLike, time_s: float = 0.0, memory: Union[Array, None] = None) -> Array:
+    def _act(self, x: Array, time_s: Times) -> Array:
+        if np.ndim(time_s) == 0 or x.ndim != 2:
+            return self._core.act(x, number("time_s", time_s))
+        times = vector("time_s", time_s)
+        if len(times) != len(x):
+            raise InvalidInput(f"time_s has {len(times)} numbers, must be one, or as many as states has rows, {len(x)}")
+        actions = self._core.act(x, 0.0)
+        order = np.argsort(times, kind="stable")
+        for rows in np.split(order, np.flatnonzero(np.diff(times[order])) + 1):  # those of one time
+            actions[rows] = self._core.act(x[rows], float(times[rows[0]]) if len(rows) else 0.0)
+        return actions
+
+    def __call__(self, states: npt.ArrayLike, time_s: Times = 0.0, memory: Union[Array, None] = None) -> Array:
         return self.act(states, time_s, memory)
 
     def start(self, n: Union[int, None] = None) -> Array:

@@ -3,6 +3,7 @@
 import copy
 import json
 import pickle
+import runpy
 
 import numpy as np
 import pytest
@@ -56,6 +57,30 @@ def test_what_is_loaded_or_pickled_answers_as_the_original(tmp_path):
                 again([0.0])
     assert forms == {"layers", "radial", "table", "feedback"}
     assert len(near) == 1, "one of them hands over to feedback"
+
+
+def test_each_row_may_have_its_time(tmp_path):
+    times = np.array([0.3, 0.0, 0.1, np.nan, 0.3, 99.0])
+    x = np.random.default_rng(3).normal(size=(6, 2))
+    kinds = set()
+    for run, trial in runs(tmp_path):
+        own = run.policy(trial)
+        for policy in own, pickle.loads(pickle.dumps(own)):
+            memory, rows = policy.start(6), policy.start(6)
+            actions = policy(x, times.tolist(), memory)
+            for row, time_s in enumerate(times):
+                np.testing.assert_allclose(policy(x[row], time_s, rows[row]), actions[row], rtol=1e-12)
+            np.testing.assert_allclose(memory, rows, rtol=1e-12)
+            assert policy(np.empty((0, 2)), [], policy.start(0)).shape == (0, 1)
+            for wrong in times[:5], times.reshape(2, 3):
+                with pytest.raises(rehearse.InvalidInput, match="^time_s "):
+                    policy(x, wrong, memory)
+        written = own.export(tmp_path / "written.py")
+        module = runpy.run_path(str(written))
+        more = [module["start"](6)] if len(own.start()) else []
+        np.testing.assert_allclose(module["act"](x, times, *more), own(x, times, own.start(6)), rtol=1e-9, atol=1e-9)
+        kinds.add(own.kind)
+    assert {"schedule", "tracking"} < kinds, "these know the time"
 
 
 def test_theta_is_a_copy(tmp_path):
