@@ -12,13 +12,13 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import function_or_none, path_of, path_or_none, read_text, text as text_of, threads_of, whole
+from .checks import function_or_none, mapping, mappings, path_of, path_or_none, read_text, text as text_of, threads_of, whole
 from .progress import show
 from .robot import Robot
 from .given_robot import Robots, begun_with, name_of, robot_of
 from .messages import for_python
 from .run import PathLike, Progress, Run, write_report
-from .tables import column_of, html_table, read_csv, structured
+from .tables import WHOLE, column_of, html_table, read_csv, structured
 from .toml import quoting, table
 
 Options = Mapping[str, Any]
@@ -27,6 +27,7 @@ Names = Union[str, Sequence[str]]
 _TEXTS = ("run", "claim", "learner", "prior", "priors", "variant", "variants", "state", "measure", "required", "result",
           "reason")
 _QUARTILES = ("quartile_1", "median", "quartile_3")
+_RETURNS = tuple(f"{kind}_{which}" for kind in ("return", "best_return") for which in _QUARTILES)
 
 
 class Campaign:
@@ -53,7 +54,7 @@ class Campaign:
     def trials(self) -> Array:
         """campaign.csv: a row a trial of every run; run, scenario, learner, prior, variant, seed, and what `Run.trials`
         has."""
-        return read_csv(self._table("campaign.csv"), texts=("run", "scenario", "learner", "prior", "variant"))
+        return read_csv(self._table("campaign.csv"), ("run", "scenario", "learner", "prior", "variant"), WHOLE)
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -73,10 +74,18 @@ class Campaign:
         """A row for the runs that differ in their seeds alone: learner, prior, variant, runs, done, failed; trial, the
         last that one of them has; solved_by, the share that had solved the task by then, and its 95 % interval low to
         high; quartiles of the return of that trial, and of the best until it."""
-        quartiles = [f"{kind}_{which}" for kind in ("return", "best_return") for which in _QUARTILES]
         return _table_of([_of_group(group) for group in self.summary["groups"]],
                          ("learner", "prior", "variant", "runs", "done", "failed", "trial", "solved_by", "low", "high",
-                          *quartiles))
+                          *_RETURNS))
+
+    @property
+    def curves(self) -> Array:
+        """Learning curves, a row a group and trial: learner, prior, variant, trial; runs that have it, with `until_solved`
+        also those that ended before; interaction_s; how many had solved the task by then (count), their share
+        (solved_by), and its 95 % interval low to high; quartiles of the return of that trial, and of the best until it."""
+        return _table_of([{**group, **_of_trial(trial)} for group in self.summary["groups"] for trial in group["trials"]],
+                         ("learner", "prior", "variant", "trial", "runs", "interaction_s", "count", "solved_by", "low", "high",
+                          *_RETURNS))
 
     @property
     def claims(self) -> Array:
@@ -157,8 +166,7 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
             "trials": None if trials is None else whole("trials", trials), "until_solved": until_solved,
             "preset": preset, "set": set, "learner": learner, "vary": vary, "variant": variant, "draw": draw,
             "claim": claim}
-    keys = {key: [entry] if key in ("learners", "priors") and isinstance(entry, str) else entry
-            for key, entry in keys.items() if entry is not None}
+    keys = {key: _entry(key, entry) for key, entry in keys.items() if entry is not None}
     text, source, scenario, core, own = _given(given, robot, keys)
     folder = path_or_none("out", out) or f"runs/{Path(source).stem}"
     part = "1/1" if share is None else text_of("share", share)
@@ -180,6 +188,15 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
 def open_campaign(folder: PathLike, robot: Union[Robot, None] = None) -> Campaign:
     """The campaign in a folder. robot: as of `open_run`, for its runs."""
     return Campaign(folder, robot)
+
+
+def _entry(key: str, entry: Any) -> Any:
+    """An argument of `campaign` as an entry of a campaign's file."""
+    if key in ("learners", "priors"):
+        return [entry] if isinstance(entry, str) else entry
+    if key in ("set", "learner", "vary", "draw"):
+        return mapping(key, entry)
+    return mappings(key, entry) if key in ("variant", "claim") else entry
 
 
 def _given(given: Robots, robot: Union[Robots, None],
@@ -212,18 +229,23 @@ def _text(keys: Mapping[str, Any]) -> str:
 
 
 def _table_of(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> Array:
-    return structured({name: column_of([row[name] for row in rows], text=name in _TEXTS) for name in names})
+    return structured({name: column_of([row[name] for row in rows], text=name in _TEXTS, whole=name in WHOLE)
+                       for name in names})
 
 
 def _of_group(group: Mapping[str, Any]) -> dict[str, Any]:
-    """A group of summary.json as a row."""
-    row = {name: group[name] for name in ("learner", "prior", "variant", "runs", "done", "failed")}
-    last = group["trials"][-1] if group["trials"] else {"trial": 0, "solved_by": None}
-    solved = last["solved_by"] or {}
-    row.update(trial=last["trial"], solved_by=solved.get("rate"), low=solved.get("low"), high=solved.get("high"))
-    for kind in ("return", "best_return"):
-        row.update({f"{kind}_{which}": last.get(kind, {}).get(which) for which in _QUARTILES})
-    return row
+    """A group of summary.json as a row, with its last trial."""
+    return {**_of_trial(group["trials"][-1] if group["trials"] else {"trial": 0}),
+            **{name: group[name] for name in ("learner", "prior", "variant", "runs", "done", "failed")}}
+
+
+def _of_trial(trial: Mapping[str, Any]) -> dict[str, Any]:
+    """A trial of a group of summary.json; what is not known is None."""
+    solved = trial.get("solved_by") or {}
+    return {"trial": trial["trial"], "runs": trial.get("runs"), "interaction_s": trial.get("interaction_s"),
+            "count": solved.get("count"), "solved_by": solved.get("rate"), "low": solved.get("low"), "high": solved.get("high"),
+            **{f"{kind}_{which}": (trial.get(kind) or {}).get(which) for kind in ("return", "best_return")
+               for which in _QUARTILES}}
 
 
 def _cells(group: Any) -> list[Any]:

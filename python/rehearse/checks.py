@@ -96,9 +96,18 @@ def function_or_none(name: str, value: Any) -> Any:
     return value
 
 
-def numbers(name: str, given: Any) -> Array:
-    """A new array of doubles; what is masked, or NA of pandas, is NaN."""
+def mappings(name: str, given: Any) -> list[Mapping[str, Any]]:
+    if not isinstance(given, (list, tuple)) or not all(isinstance(each, Mapping) for each in given):
+        raise TypeError(f"{name} = {given!r}, must be a list of dictionaries")
+    return list(given)
+
+
+def numbers(name: str, given: Any, *, texts: bool = False) -> Array:
+    """A new array of doubles; what is masked, or NA of pandas, is NaN. texts: those that are numbers are taken."""
     array: Array = np.asarray(given)
+    if not texts and (array.dtype.kind in "US" or
+                      array.dtype.kind == "O" and any(isinstance(each, (str, bytes)) for each in array.flat)):
+        raise InvalidInput(f"{name} has texts, must have numbers")
     if array.dtype.kind == "c":
         raise InvalidInput(f"{name} has complex numbers, must have real ones")
     if array.dtype.kind in "mM":

@@ -79,19 +79,20 @@ class Environment:
             action = action.reshape(self._shape).astype(self._dtype or float)
         result = self._environment.step(action)
         if result is None:
-            raise ValueError("step returned None, must be an observation, four things or five")
+            raise ValueError(f"step returned None in step {self._step} of an episode, must be an observation, four things or five")
         if not isinstance(result, tuple):
             return self._state(result), False
         if len(result) == 5:
             observation, _, terminated, truncated, _ = result
-            terminated, truncated = _truth("terminated", terminated), _truth("truncated", truncated)
+            terminated, truncated = self._truth("terminated", terminated), self._truth("truncated", truncated)
         elif len(result) == 4:
             observation, _, done, info = result
-            done = _truth("done", done)
+            done = self._truth("done", done)
             truncated = bool(done and isinstance(info, Mapping) and info.get("TimeLimit.truncated", False))
             terminated = done and not truncated
         else:
-            raise ValueError(f"step returned {len(result)} things, must be an observation, four or five")
+            raise ValueError(f"step returned {len(result)} things in step {self._step} of an episode, must be four or "
+                             "five, or an observation")
         self._over = truncated and not terminated
         if self._over and self._step < self._task.horizon:
             raise RuntimeError(
@@ -99,19 +100,28 @@ class Environment:
                 "time: give it a longer one (max_episode_steps), or the robot a shorter horizon")
         return self._state(observation), terminated
 
+    def _truth(self, name: str, value: Any) -> bool:
+        """A truth, of NumPy too, or 0 or 1. Python would take any text for True, "no" as well."""
+        given = np.asarray(value)
+        if given.size != 1 or given.dtype.kind not in "biuf" or given.item() not in (0, 1):
+            raise ValueError(f"step returned {name} = {value!r} in step {self._step} of an episode, must be True or False")
+        return bool(given.item())
+
     def _state(self, observation: Any) -> Array:
         state = self._observe(observation) if self._observe else observation
+        when = f"in step {self._step} of an episode" if self._step else "at the start of an episode"
         if state is None:
-            raise ValueError(f"{'observe returned None' if self._observe else 'an observation is None'}, must be the states")
+            what = "observe returned None" if self._observe else "an observation is None"
+            raise ValueError(f"{what} {when}, must be the states")
         try:
-            given = numbers("an observation", state).reshape(-1)
+            given = numbers(f"an observation {when}", state).reshape(-1)
         except InvalidInput:
             raise
         except (TypeError, ValueError):
-            raise ValueError(f"an observation is a {type(observation).__name__}: observe=f(observation) must say how it "
-                             "is a state") from None
+            raise ValueError(f"an observation {when} is a {type(observation).__name__}: observe=f(observation) must say how "
+                             "it is a state") from None
         if self._task.states and len(given) != len(self._task.states):
-            raise ValueError(f"{'observe' if self._observe else 'the environment'} gives {len(given)} numbers, must be "
+            raise ValueError(f"{'observe' if self._observe else 'the environment'} gives {len(given)} numbers {when}, must be "
                              f"the states {', '.join(s.name for s in self._task.states)}: observe=f(observation) says how")
         return self._continued(given) if self._angles.any() else given
 
@@ -130,14 +140,6 @@ class Environment:
         self._last = given
         continued: Array = given + 2 * math.pi * self._turns
         return continued
-
-
-def _truth(name: str, value: Any) -> bool:
-    """A truth, of NumPy too, or 0 or 1. Python would take any text for True, "no" as well."""
-    given = np.asarray(value)
-    if given.size != 1 or given.dtype.kind not in "biuf" or given.item() not in (0, 1):
-        raise ValueError(f"step returned {name} = {value!r}, must be True or False")
-    return bool(given.item())
 
 
 @dataclass(frozen=True)

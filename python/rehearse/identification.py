@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -78,8 +78,7 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
         forecast = as_files(held_out, folder, "held-out")
         core, scenario = robot_of(robot)
         result = _core.identify(core, scenario, prior, option_texts(options), learned_from, forecast, threads_of(threads))
-    tables = {Path(name).stem: from_csv(table, () if name.startswith(("forecasts", "zeros")) else TEXTS)
-              for name, table in result["tables"]}
+    tables = {Path(name).stem: from_csv(table, *_kinds_of(name)) for name, table in result["tables"]}
     summary = "\n\n".join("\n  ".join([title, *lines]) for title, lines in result["summary"])
     return Identification(tables, summary, result["notes"], result["page"])
 
@@ -87,3 +86,10 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
 def _several(logs: Any) -> Sequence[Any]:
     """A list of logs, of which there may be one alone."""
     return logs if isinstance(logs, (list, tuple)) else [logs]
+
+
+def _kinds_of(name: str) -> tuple[Collection[str], Collection[str]]:
+    """The columns of a table that are texts, and those of whole numbers. States have columns of their own name in two."""
+    if name.startswith("forecasts"):
+        return (), ()
+    return (("log", "set"), ()) if name.startswith("zeros") else (TEXTS, ("compared",))

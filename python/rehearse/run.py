@@ -23,7 +23,7 @@ from .messages import said_for_python
 from .policy import Policy
 from .progress import show
 from .robot import Robot
-from .tables import TEXTS, as_files, from_csv, html_table, read_csv, without_path
+from .tables import TEXTS, WHOLE, as_files, from_csv, html_table, read_csv, without_path
 from .trial import Trial, best_of
 
 PathLike = Union[str, os.PathLike[str]]
@@ -68,7 +68,7 @@ class Run:
         if not path.exists():
             known = ", ".join(sorted(file.stem for file in self.folder.glob("*.csv")))
             raise _core.InvalidInput(f"{self.folder} has no {name}.csv (known: {known})")
-        return read_csv(path, TEXTS)
+        return read_csv(path, TEXTS, WHOLE)
 
     def trajectory(self, trial: int) -> Array:
         """What the robot did: time, states measured and true, actions, reward; a row a step."""
@@ -163,7 +163,7 @@ class Run:
         """Such episodes with one parameter of the robot changed at a time, by factors of 0.75 to 1.25: the rows of
         robustness.csv (docs/evaluate.md). An environment has no parameters to change."""
         text = self._do(_core.robustness, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
-        return from_csv(text, TEXTS)
+        return from_csv(text, TEXTS, WHOLE)
 
     def report(self, out: Union[PathLike, None] = None) -> Path:
         """Writes the page of the run, by default report.html in its folder."""
@@ -221,7 +221,7 @@ class Run:
         given = whole("trial", trial)
         path = self.folder / kind / f"trial-{given:03}.csv"
         if path.exists():
-            return read_csv(path)
+            return read_csv(path, whole=("particles",) if kind == "predictions" else ())
         done = len(self.trials)
         if not 1 <= given <= done:
             raise _core.InvalidInput(f"trial = {given}, must be between 1 and {done}, the trials that are done")

@@ -8,6 +8,7 @@ import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from datetime import date, timedelta
 from html import escape
 from pathlib import Path
 from typing import Any, Union
@@ -23,6 +24,10 @@ from .checks import numbers, read_text, write_text
 #: have others.
 TEXTS = frozenset({"limit", "note", "warning", "notes", "file", "settings", "broke", "parameter", "unit", "state", "set", "kind", "text"})
 
+#: Columns of whole numbers in these tables. All other numbers are doubles, whatever the values are, and whether there are any.
+WHOLE = frozenset({"trial", "seed", "rollouts", "failed_rollouts", "cut_short", "broken", "horizon", "compared", "failed", "log", "steps",
+                   "episodes", "elite", "learned", "runs", "of", "done", "trials"})
+
 
 def structured(columns: Mapping[str, Array]) -> Array:
     """Columns of one length, by name, as a structured array; pandas.DataFrame takes it as it is."""
@@ -33,46 +38,47 @@ def structured(columns: Mapping[str, Array]) -> Array:
     return table
 
 
-def column_of(values: Sequence[Any], *, text: bool = False) -> Array:
-    """Texts, whole numbers, or numbers, of which None is NaN. text: they are texts even where there are none."""
-    if text or any(isinstance(value, str) for value in values):
+def column_of(values: Sequence[Any], *, text: bool = False, whole: bool = False) -> Array:
+    """Texts, whole numbers, or numbers, of which None is NaN."""
+    if text:
         return _texts_of([str(value) for value in values])
-    return np.array(values, dtype=float if None in values or not values else None)
+    return np.array(values, dtype=np.int64 if whole else float)
 
 
-def from_csv(text: str, texts: Collection[str] = ()) -> Array:
-    """A structured array, a field a column: whole numbers, numbers (NaN where a cell is empty), or texts.
+def from_csv(text: str, texts: Collection[str] = (), whole: Collection[str] = ()) -> Array:
+    """A structured array, a field a column: numbers (NaN where a cell is empty), or texts.
 
-    Names are those of the header without their units. texts: columns that are texts, whatever is in them.
+    Names are those of the header without their units. texts: columns that are texts, whatever is in them; whole: those of
+    whole numbers.
     """
     rows = list(csv.reader(io.StringIO(text)))
     header = [re.sub(r" \[.*\]$", "", name) for name in rows[0]] if rows else []
     cells = {name: [row[i] for row in rows[1:]] for i, name in enumerate(header)}
-    return structured({name: _texts_of(column) if name in texts else _parsed(column) for name, column in cells.items()})
+    return structured({name: _texts_of(column) if name in texts else _parsed(column, name in whole)
+                       for name, column in cells.items()})
 
 
-def read_csv(path: Union[str, os.PathLike[str]], texts: Collection[str] = ()) -> Array:
-    return from_csv(read_text(path), texts)
+def read_csv(path: Union[str, os.PathLike[str]], texts: Collection[str] = (), whole: Collection[str] = ()) -> Array:
+    return from_csv(read_text(path), texts, whole)
 
 
 def _texts_of(cells: list[str]) -> Array:
     return np.array(cells, dtype=str) if cells else np.empty(0, dtype="U1")
 
 
-def _parsed(cells: list[str]) -> Array:
-    """Numbers where all cells are, else texts."""
+def _parsed(cells: list[str], whole: bool) -> Array:
+    """Numbers where all cells are, else texts. Another version may have left a cell empty that should be a whole number."""
     try:
         values = np.array([float(cell) if cell else np.nan for cell in cells])
     except ValueError:
         return _texts_of(cells)
-    whole = cells and all(cell.lstrip("-").isdigit() for cell in cells)
-    return values.astype(np.int64) if whole else values
+    return values.astype(np.int64) if whole and all(cell.lstrip("-").isdigit() for cell in cells) else values
 
 
 def to_csv(columns: Any) -> str:
     """An episode as a file: a structured array, a DataFrame, or a dictionary of columns.
 
-    An index with a name is a column, too. A column may be one shorter than `time`: no action follows the last state.
+    An index with a name is a column, too; one without, of dates or spans, is `time`. A column may be one shorter than `time`: no action follows the last state.
     What is masked, None, and what pandas takes for missing are empty cells, which are missing samples. What is no column
     of numbers is written as it is, for the reader to say so where the task has it, else to leave it.
     """
@@ -83,9 +89,13 @@ def to_csv(columns: Any) -> str:
         index: Any = getattr(columns, "index", None)  # of pandas, where times may stand
         if getattr(index, "name", None) is not None:
             named.setdefault(str(index.name), index)
+        elif getattr(getattr(index, "dtype", None), "kind", "") in ("m", "M"):
+            named.setdefault("time", index)
     else:
         raise TypeError(f"{type(columns).__name__}: an episode is a path, a structured array, a DataFrame, or a "
                         "dictionary of columns: time, states and actions by name")
+    if "time" in named:
+        named["time"] = _seconds(named["time"])
     numeric = {name: array for name, column in named.items() if (array := _numbers(name, column)) is not None}
     rows = len(numeric["time"]) if "time" in numeric else max((len(column) for column in numeric.values()), default=0)
     for name, column in numeric.items():
@@ -130,12 +140,31 @@ def without_path(folder: str) -> Iterator[None]:
 def _numbers(name: str, column: Any) -> Union[Array, None]:
     """None: it holds something else, such as texts, complex numbers, times of day, images, or one number alone."""
     try:
-        array = numbers(name, column)
+        array = numbers(name, column, texts=True)
     except (TypeError, ValueError):
         return None
     if array.ndim == 2 and array.shape[1] == 1:
         array = array[:, 0]
     return array if array.ndim == 1 else None
+
+
+def _seconds(column: Any) -> Any:
+    """A column of dates as seconds from the first, one of spans as seconds; any other as it is."""
+    if isinstance(column, (str, bytes, Mapping)) or not isinstance(column, Collection):
+        return column
+    array = np.asarray(column)
+    if array.dtype.kind == "O" and array.ndim == 1 and all(isinstance(each, (date, timedelta)) for each in array):
+        apart = [each if isinstance(each, timedelta) else each - array[0] for each in array]  # those with a zone, too
+        array = np.array([each.total_seconds() for each in apart])
+    elif array.dtype.kind == "m" and array.ndim == 1 and np.datetime_data(array.dtype)[0] not in ("Y", "M"):
+        array = array / np.timedelta64(1, "s")
+    elif array.dtype.kind == "M" and array.ndim == 1:
+        array = array.astype("datetime64[ns]")
+        known = array[~np.isnat(array)]
+        array = (array - (known[0] if len(known) else array.dtype.type(0, "ns"))) / np.timedelta64(1, "s")
+    else:
+        return column
+    return [None if np.isnan(each) else each for each in array.tolist()]
 
 
 def _missing(column: Any) -> Array:

@@ -131,6 +131,23 @@ def test_tables_of_all_that_varies(tmp_path):
     assert len(masses) == 2 and masses[0] == masses[1] and "1.6" != masses[0][-3:]
 
 
+def test_curves_have_the_runs_that_ended_before(tmp_path):
+    robot = cart(success=rehearse.Success(lambda states: np.abs(states[:, 1]) < 0.05, 0.0))
+    done = campaign(robot, tmp_path / "out", seeds="1-4", trials=3, until_solved=True, learners=["gp-mi", "black-drops"])
+    curves = done.curves
+    assert len(set(np.bincount(done.trials["trial"]))) > 2, "some runs ended before"
+    assert curves["trial"].tolist() == [1, 2, 3] * 2 and curves["learner"].tolist() == ["gp-mi"] * 3 + ["black-drops"] * 3
+    assert (curves["runs"] == 4).all() and curves["runs"].dtype == np.int64 and curves["return_median"].dtype == float
+    np.testing.assert_array_equal(curves["solved_by"], curves["count"] / 4)
+    assert (curves["low"] <= curves["solved_by"]).all() and (curves["solved_by"] <= curves["high"]).all()
+    first = done.trials[(done.trials["learner"] == "gp-mi") & (done.trials["trial"] == 1)]
+    assert curves["return_median"][0] == curves["best_return_median"][0] == pytest.approx(np.median(first["return"]))
+    assert curves["interaction_s"][0] == pytest.approx(1.5)
+    for curve, group in zip(curves[2::3], done.groups):
+        same = ["learner", "trial", "solved_by", "low", "high", "return_median", "best_return_quartile_3"]
+        assert curve[same].tolist() == group[same].tolist()
+
+
 def test_figures_and_the_page(tmp_path):
     pyplot = pytest.importorskip("matplotlib.pyplot")
     done = campaign(cart(), tmp_path / "out", vary={"search.finalists": np.array([1, 2])})
@@ -331,9 +348,9 @@ def test_what_is_wrong_is_said_and_leaves_no_folder(tmp_path):
     refused("seeds has 1 twice", cart(), seeds=[1, 1])
     refused("did you mean|unknown option", cart(), set={"hiden": 3})
     refused("trials = 1.5, must be a whole number", cart(), TypeError, trials=1.5)
-    refused("variants are written as", cart(), variant={"name": "alone"})
-    refused("claims are written as", cart(), claim=[3])
-    refused("set must be a table", cart(), set=["hidden"])
+    refused("^variant = {'name': 'alone'}, must be a list of dictionaries$", cart(), TypeError, variant={"name": "alone"})
+    refused(r"^claim = \[3\], must be a list of dictionaries$", cart(), TypeError, claim=[3])
+    refused("^set is a list, must be a dictionary$", cart(), TypeError, set=["hidden"])
     refused("learners must be a list of names", cart(), learners=[])
     refused("priors must be a list of names", cart(), priors=[])
     refused("hidden: None must be a text, a number", cart(), set={"hidden": None})

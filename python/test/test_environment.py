@@ -156,6 +156,16 @@ def test_a_policy_is_tried_on_another_environment(tmp_path):
         run.robustness(2)
 
 
+def test_an_observation_that_does_not_fit_is_named_with_its_step(tmp_path):
+    class Short(Environment):
+        def step(self, action):
+            observation, *rest = super().step(action)
+            return observation[: 1 if self.steps == 3 else 2], *rest
+
+    with pytest.raises(ValueError, match="^the environment gives 1 numbers in step 3 of an episode, must be the states velocity, "):
+        learn(cart(Short), tmp_path / "run", trials=1)
+
+
 def test_options_are_looked_up_in_python(tmp_path):
     run = learn(cart(), tmp_path / "run", trials=1)
     for call in (lambda: run.evaluate(2, options={"colour": 3}), lambda: learn(cart(), tmp_path / "other", options={"colour": 3}),

@@ -43,6 +43,8 @@ def test_parameters_have_a_figure():
     pytest.importorskip("matplotlib")
     found = rehearse.identify(cart(plant=None), [log(1)], options={"beyond": "nothing"})
     assert list(found.tables["parameters"]["unit"]) == [""], "a text, also where there is none"
+    assert found.tables["zeros"]["log"].dtype.kind == "U" and found.tables["accuracy"]["horizon"].dtype == float
+    assert found.tables["accuracy"]["compared"].dtype == np.int64
     assert found.tables["accuracy"]["unit"].dtype.kind == found.tables["warnings"]["text"].dtype.kind == "U"
     assert [axis.get_ylabel() for axis in found.plot().axes] == ["mass"]
 

@@ -1,5 +1,6 @@
 """Inputs in other forms, and wrong ones: refused by name, or warned of."""
 
+import datetime
 import functools
 import warnings
 
@@ -10,6 +11,7 @@ from robots import QUICK, Environment, cart, change
 import rehearse
 from rehearse import environment
 from rehearse.environment import Task
+from rehearse.tables import to_csv
 
 FILE = """
 format = 1
@@ -110,7 +112,8 @@ class Series(np.ndarray):
         return np.asarray(values).view(cls)
 
     def isna(self):
-        return np.isnan(np.asarray(self))
+        given = np.asarray(self)
+        return np.isnat(given) if given.dtype.kind in "mM" else np.isnan(given)
 
 
 @pytest.mark.parametrize("like", [
@@ -125,6 +128,43 @@ def test_missing_samples_are_empty_cells(moved, run, like):
         assert run.tell({**columns, "position": like(moved["position"])})["trial"] == 1
     between = (moved["position"][6] + moved["position"][8]) / 2
     assert run.trajectory(1)["position"][7] == pytest.approx(between)
+
+
+BEGUN = datetime.datetime(2026, 1, 2, 3, 4, 5, tzinfo=datetime.timezone.utc)
+
+
+class Frame(dict):
+    """As far as pandas' matters here."""
+
+    def __init__(self, columns, index):
+        super().__init__(columns)
+        self.index, self.index.name = index, None
+
+
+@pytest.mark.parametrize("like", [
+    lambda spans: spans,
+    lambda spans: np.datetime64("2026-01-02T03:04:05") + spans,
+    lambda spans: (np.datetime64("2026-01-02T03:04:05") + spans).tolist(),
+    lambda spans: spans.tolist(),
+    lambda spans: [BEGUN + span for span in spans.tolist()],
+])
+def test_times_may_be_dates_or_spans(moved, run, silent, like):
+    spans = (np.round(moved["time"] * 1e6)).astype("timedelta64[us]")
+    assert run.tell({**{name: moved[name] for name in ("velocity", "position", "force")}, "time": like(spans)})["notes"] == []
+    np.testing.assert_allclose(run.trajectory(1)["position"], moved["position"], atol=1e-9)
+
+
+@pytest.mark.parametrize("like", [lambda spans: spans, lambda spans: np.datetime64("2026-01-02") + spans])
+def test_an_index_of_dates_needs_no_name(moved, run, silent, like):
+    spans = (np.round(moved["time"] * 1e9)).astype("timedelta64[ns]")
+    frame = Frame({name: moved[name] for name in ("velocity", "position", "force")}, like(spans).view(Series))
+    assert run.tell(frame)["notes"] == []
+    np.testing.assert_allclose(run.trajectory(1)["position"], moved["position"], atol=1e-9)
+
+
+def test_a_date_that_is_missing_is_an_empty_cell():
+    time = np.array(["2026-01-01", "NaT", "2026-01-03"], dtype="datetime64[D]")
+    assert to_csv({"time": time, "x": [1, 2, 3]}) == "time,x\n0.0,1.0\n,2.0\n172800.0,3.0\n"
 
 
 def test_what_is_no_column_is_left_out(moved, run, silent):
@@ -300,7 +340,9 @@ def test_an_angle_inside_of_one_turn_is_counted_on(low, silent):
 
 
 @pytest.mark.parametrize("returned, message", [
-    ((None, {}), "an observation is None, must be the states"),
+    ((None, {}), "^an observation is None at the start of an episode, must be the states"),
+    ((["1", "2"], {}), "^an observation at the start of an episode has texts, must have numbers"),
+    ((["1", 2.0, None], {}), "^an observation at the start of an episode has texts, must have numbers"),
     (None, "reset returned None, must be an observation"),
 ])
 def test_what_an_environment_leaves_out_is_named(returned, message):
@@ -310,7 +352,7 @@ def test_what_an_environment_leaves_out_is_named(returned, message):
     with pytest.raises(ValueError, match=message):
         played.reset(1)
     env.step = lambda _: None
-    with pytest.raises(ValueError, match="step returned None, must be an observation, four things or five"):
+    with pytest.raises(ValueError, match="step returned None in step 1 of an episode, must be an observation, four things or five"):
         played.step(np.zeros(1))
     env.step = lambda _: ([0.0], 0.0, True, None)
     assert played.step(np.zeros(1)) == ([0.0], True)
@@ -324,12 +366,12 @@ def stepping(*ends):
 
 
 @pytest.mark.parametrize("ends, message", [
-    (("no", False, {}), "step returned terminated = 'no', must be True or False"),
-    ((None, False, {}), "step returned terminated = None, must"),
-    ((2, False, {}), "step returned terminated = 2, must"),
-    ((np.array([True, False]), False, {}), r"step returned terminated = array\(\[ True, False\]\), must"),
-    ((False, "no", {}), "step returned truncated = 'no', must"),
-    (("False", {}), "step returned done = 'False', must"),
+    (("no", False, {}), "step returned terminated = 'no' in step 1 of an episode, must be True or False"),
+    ((None, False, {}), "step returned terminated = None in step 1 of an episode, must"),
+    ((2, False, {}), "step returned terminated = 2 in step 1 of an episode, must"),
+    ((np.array([True, False]), False, {}), r"step returned terminated = array\(\[ True, False\]\) in step 1 of an episode, must"),
+    ((False, "no", {}), "step returned truncated = 'no' in step 1 of an episode, must"),
+    (("False", {}), "step returned done = 'False' in step 1 of an episode, must"),
 ])
 def test_an_episode_is_over_or_not(ends, message):
     with pytest.raises(ValueError, match=f"^{message}"):

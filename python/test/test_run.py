@@ -102,7 +102,10 @@ def test_tables_know_their_columns(tmp_path):
     moved = run.trajectory(1)
     assert moved.dtype.names[:4] == ("time", "velocity", "position", "true velocity")
     assert len(moved) == 16 and np.isnan(moved["force"][-1])
-    assert run.trials["trial"].dtype == np.int64
+    none = learn(cart(), tmp_path / "none", trials=0).trials
+    assert len(none) == 0 and none.dtype == run.trials.dtype, "whatever the values are"
+    assert {name for name in none.dtype.names if none.dtype[name] == np.int64} == {"trial", "rollouts", "failed_rollouts"}
+    assert run.table("notes").dtype["trial"] == run.prediction(2).dtype["particles"] == np.int64
     assert run.best.trial in (1, 2)
     assert run.best.intervals.get("mass", (0, 2))[0] < 1.7
     html = run._repr_html_()
@@ -146,7 +149,7 @@ def test_an_environment_is_the_plant(tmp_path):
 
 
 def test_an_environment_must_fit_the_robot(tmp_path):
-    with pytest.raises(ValueError, match="the environment gives 2 numbers, must be the states velocity"):
+    with pytest.raises(ValueError, match="the environment gives 2 numbers at the start of an episode, must be the states velocity"):
         learn(cart(Environment, states=[rehearse.State("velocity")], reward="velocity", success=None,
                    priors={"light": rehearse.Model(rates={"velocity": "force"})}), tmp_path / "run")
     with pytest.warns(UserWarning, match="starts with position = 1, .* says start=0.5") as warned:
