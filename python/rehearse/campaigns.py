@@ -166,7 +166,8 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
             "trials": None if trials is None else whole("trials", trials), "until_solved": until_solved,
             "preset": preset, "set": set, "learner": learner, "vary": vary, "variant": variant, "draw": draw,
             "claim": claim}
-    keys = {key: _entry(key, entry) for key, entry in keys.items() if entry is not None}
+    keys = {key: _entry(key, entry) for key, entry in keys.items()}
+    keys = {key: entry for key, entry in keys.items() if entry is not None}
     text, source, scenario, core, own = _given(given, robot, keys)
     folder = path_or_none("out", out) or f"runs/{Path(source).stem}"
     part = "1/1" if share is None else text_of("share", share)
@@ -191,12 +192,14 @@ def open_campaign(folder: PathLike, robot: Union[Robot, None] = None) -> Campaig
 
 
 def _entry(key: str, entry: Any) -> Any:
-    """An argument of `campaign` as an entry of a campaign's file."""
+    """An argument of `campaign` as an entry of a campaign's file; None: it has none."""
+    if entry is None:
+        return None
     if key in ("learners", "priors"):
         return [entry] if isinstance(entry, str) else entry
     if key in ("set", "learner", "vary", "draw"):
         return mapping(key, entry)
-    return mappings(key, entry) if key in ("variant", "claim") else entry
+    return mappings(key, entry) or None if key in ("variant", "claim") else entry
 
 
 def _given(given: Robots, robot: Union[Robots, None],

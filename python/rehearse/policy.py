@@ -90,6 +90,8 @@ class Policy:
         if np.ndim(time_s) == 0 or x.ndim != 2:
             return self._core.act(x, number("time_s", time_s))
         times = vector("time_s", time_s)
+        if len(times) == 1:
+            return self._core.act(x, float(times[0]))
         if len(times) != len(x):
             raise InvalidInput(f"time_s has {len(times)} numbers, must be one, or as many as states has rows, {len(x)}")
         actions = self._core.act(x, 0.0)

@@ -78,8 +78,8 @@ def _parsed(cells: list[str], whole: bool) -> Array:
 def to_csv(columns: Any) -> str:
     """An episode as a file: a structured array, a DataFrame, or a dictionary of columns.
 
-    An index with a name is a column, too; one without, of dates or spans, is `time`. A column may be one shorter than `time`: no action follows the last state.
-    What is masked, None, and what pandas takes for missing are empty cells, which are missing samples. What is no column
+    An index with a name is a column, too; one without, of dates or spans, is `time`. A column may be one shorter than
+    `time`: no action follows the last state. What is masked, None, and what pandas takes for missing are empty cells, which are missing samples. What is no column
     of numbers is written as it is, for the reader to say so where the task has it, else to leave it.
     """
     if isinstance(columns, np.ndarray) and columns.dtype.names:

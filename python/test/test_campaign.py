@@ -150,7 +150,7 @@ def test_curves_have_the_runs_that_ended_before(tmp_path):
 
 def test_figures_and_the_page(tmp_path):
     pyplot = pytest.importorskip("matplotlib.pyplot")
-    done = campaign(cart(), tmp_path / "out", vary={"search.finalists": np.array([1, 2])})
+    done = campaign(cart(), tmp_path / "out", vary={"search.finalists": np.array([1, 2])}, claim=[], variant=[])
     figure = done.plot()
     assert pyplot.get_fignums() == []
     assert len(figure.axes[0].lines) == 2 and figure.axes[0].get_title() == "cart-campaign"

@@ -72,6 +72,7 @@ def test_each_row_may_have_its_time(tmp_path):
                 np.testing.assert_allclose(policy(x[row], time_s, rows[row]), actions[row], rtol=1e-12)
             np.testing.assert_allclose(memory, rows, rtol=1e-12)
             assert policy(np.empty((0, 2)), [], policy.start(0)).shape == (0, 1)
+            np.testing.assert_array_equal(policy(x, [0.1], policy.start(6)), policy(x, 0.1, policy.start(6)))
             for wrong in times[:5], times.reshape(2, 3):
                 with pytest.raises(rehearse.InvalidInput, match="^time_s "):
                     policy(x, wrong, memory)
