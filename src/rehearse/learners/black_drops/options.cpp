@@ -7,7 +7,8 @@ namespace rehearse::learners::black_drops {
 void FirstTrial::fields(FieldVisitor& v) {
   v.choice("kind", kind, "first trial without a prior: random actions, their bounds, or a random policy",
            {"actions", "extremes", "policy"}, published("policy"));
-  v.number("hold_s", hold_s, "time that a random action is held [s]; 0: one step", at_least(0), published(0, kAuthors));
+  v.number("hold_s", hold_s, "time that a random action is held, a fifth of an episode at most [s]; 0: one step",
+           at_least(0), published(0, kAuthors));
   v.number("cautious", cautious,
            "tasks with limits: range of random actions, as a fraction of the full range around its centre",
            between(0, 1));

@@ -19,7 +19,8 @@ void PlanSearch::fields(FieldVisitor& v) {
   v.integer("starts", starts, "random initial plans, beside the last plan", between(1, 10000));
   v.number("start_size", start_size,
            "range of the random initial actions, as a fraction of the full range around its centre", between(0, 1));
-  v.number("start_hold_s", start_hold_s, expert("time that a random initial action is held [s]; 0: one step"),
+  v.number("start_hold_s", start_hold_s,
+           expert("time that a random initial action is held, a fifth of an episode at most [s]; 0: one step"),
            at_least(0));
   v.integer("first_iterations", first_iterations, expert("iterations for each start"), between(1, 100000));
   v.integer("finalists", finalists, expert("best plans that are improved further"), between(1, 10000));

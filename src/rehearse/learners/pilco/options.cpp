@@ -8,8 +8,8 @@ void Options::fields(FieldVisitor& v) {
   v.boolean("success_test", success_test,
             "searches restart until a trial meets the success criterion; false: before every trial", published(false));
   if (!pi_rem)
-    v.number("first_trial.hold_s", first_trial_hold_s, "time that a random action is held [s]; 0: one step",
-             at_least(0));
+    v.number("first_trial.hold_s", first_trial_hold_s,
+             "time that a random action is held, a fifth of an episode at most [s]; 0: one step", at_least(0));
   if (prior) prior->fields(v);
   if (pi_rem) pi_rem->fields(v);
 }
