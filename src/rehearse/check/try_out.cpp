@@ -125,9 +125,8 @@ void count_ends(const Task& task, const std::vector<Episode>& episodes, Tried& t
 std::string unknown_ends(const Task& task, const Tried& tried) {
   if (task.ended || tried.ended == 0) return {};
   return fmt::format(
-      "the plant itself ended {} of {} episodes, which no simulated episode knows: say when it ends by `ended`, or by "
-      "a "
-      "limit",
+      "the plant itself ended {} of {} episodes, which no simulated episode knows: say when it ends by `ended`, "
+      "or by a limit",
       tried.ended, tried.episodes);
 }
 

@@ -31,10 +31,9 @@ struct ActionVariable {
   std::string name;  // of no state
   std::string unit;
   Interval bounds;
-  std::string target_of = {};  // name of the state that it commands (a servo's angle): models see its distance from
-                               // that state; empty: none
-  std::string servo_type =
-      {};  // of the servo whose target it is: those of the same type are alike; empty: like no other
+  std::string target_of = {};   // name of the state that it commands (a servo's angle): models see its distance from
+                                // that state; empty: none
+  std::string servo_type = {};  // of the servo whose target it is: those of one type are alike; empty: like no other
   Actuation actuation = {};
 };
 
