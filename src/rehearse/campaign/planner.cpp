@@ -108,7 +108,7 @@ class Planner {
     }
   }
 
-  /// What the work returns, or nothing and the violations that it throws, at this line.
+  /// The value that the work returns, or nothing and the violations that it throws, at this line.
   template <class Work>
   auto value_or_violations(Index line, Work work) -> std::optional<decltype(work())> {
     try {

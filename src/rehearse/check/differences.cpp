@@ -4,9 +4,9 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "rehearse/core/name_list.hpp"
+#include "rehearse/core/row_text.hpp"
 
 namespace rehearse::check {
 
@@ -41,13 +41,9 @@ std::string without_prediction(const Task& task, const Matrix& X, const Matrix& 
   for (Index row = predicted.rows() - 1; row >= 0; --row)
     if (!predicted.row(row).allFinite()) first = row, ++count;
   if (first < 0) return {};
-  std::vector<std::string> values;
-  for (Index j = 0; j < X.cols(); ++j)
-    values.push_back(fmt::format("{} = {:.4g}", task.states[static_cast<std::size_t>(j)].name, X(first, j)));
-  for (Index j = 0; j < U.cols(); ++j)
-    values.push_back(fmt::format("{} = {:.4g}", task.actions[static_cast<std::size_t>(j)].name, U(first, j)));
-  return fmt::format("{} of {} rows have no prediction; the first: {}", count, predicted.rows(),
-                     fmt::join(values, ", "));
+  return fmt::format("{} of {} rows have no prediction; the first: {}, {}", count, predicted.rows(),
+                     row_text(task.states, X.row(first).transpose(), X.cols()),
+                     row_text(task.actions, U.row(first).transpose(), U.cols()));
 }
 
 std::string worse_than_nothing(const Task& task, const Vector& errors, const Vector& as_next, const Vector& changes) {

@@ -18,7 +18,7 @@ inline bool is_word(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), is_part);
 }
 
-/// Of letters of ASCII.
+/// The text with each capital letter of ASCII as a small one.
 inline std::string in_lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -89,7 +89,8 @@ struct Setting {
 class Learner {
  public:
   virtual ~Learner() = default;
-  /// What is returned lives until `tell`, `load` or the learner's end: copy what is needed longer.
+  /// The proposal for the next trial. The reference is valid until `tell`, `load` or the learner's end: copy it to keep
+  /// it.
   virtual const Proposal& ask() = 0;
   /// Does what `ask` does, for a caller who has kept the same proposal. Learners whose search takes long leave it out:
   /// policy, θ and model of what is returned are those of `ask`, other fields may be empty.

@@ -20,7 +20,7 @@ Lockstep::Lockstep(const Simulation& of, Index rows, LockstepMemory& memory)
   std::iota(m_.places.begin(), m_.places.end(), 0);
 }
 
-/// What a step computes for each row.
+/// Gives the numbers that a step computes so many rows, all of them alive.
 void Lockstep::resize(Index rows) {
   for (Matrix* states : {&m_.seen, &m_.next, &m_.noise}) states->resize(rows, task_.state_size());
   m_.U.resize(rows, task_.action_size());
