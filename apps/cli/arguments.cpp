@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/cli/output_file.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/kept_robot.hpp"
 
@@ -27,9 +28,7 @@ std::optional<Index> trial_of(const std::optional<std::string>& text, Violations
 }
 
 void require_page(const std::optional<std::string>& out, Violations& violations) {
-  const std::string ending = std::filesystem::path(out.value_or("")).extension().string();
-  violations.require(ending.empty() || ending == ".html" || ending == ".htm",
-                     fmt::format("--out {}: it is a page, must end in .html or .htm", out.value_or("")));
+  if (out) violations.attempt([&] { check_output(page_file(*out, "--out FILE.html")); });
 }
 
 void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot) {

@@ -187,7 +187,6 @@ int tell(const experiment::Catalogue& built_in, const TellArguments& arguments) 
   if (arguments.undo) return take_back(built_in, arguments);
   if (arguments.files.empty()) throw InvalidInput("FILE.csv is required: what the robot did");
   if (arguments.no_fault && !arguments.stopped) throw InvalidInput("--no-fault goes with --stopped \"REASON\"");
-  if (arguments.stopped && arguments.stopped->empty()) throw InvalidInput("--stopped says no reason");
   experiment::TellRequest request{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
   if (arguments.stopped) request.stopped = {*arguments.stopped, !arguments.no_fault};
   std::vector<std::string> again = {"tell", arguments.folder};  // which changes nothing if it was told

@@ -130,7 +130,7 @@ int learn(const Catalogue& built_in, const LearnArguments& arguments) {
   if (complete(spec, catalogue, file, violations) && policy)
     violations.attempt([&] { spec = experiment::with_start(catalogue, spec, *policy, *arguments.policy); });
   violations.throw_if_any();
-  const std::filesystem::path folder = arguments.out.value_or("runs/" + experiment::run_name(spec));
+  const std::filesystem::path folder = arguments.out.value_or(experiment::default_folder(spec));
   return run_on_console(catalogue, folder, threads, [&](const RunOptions& options) {
     return experiment::start_run(catalogue, spec, folder, options);
   });

@@ -1,11 +1,13 @@
 #include "apps/cli/output_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
@@ -42,7 +44,8 @@ OutputFile page_file(fs::path path, std::string option) {
   return {.path = std::move(path),
           .kind = "page of Rehearse",
           .option = std::move(option),
-          .is_ours = [](std::string_view text) { return text.starts_with(kBegins); }};
+          .is_ours = [](std::string_view text) { return text.starts_with(kBegins); },
+          .endings = {".html", ".htm"}};
 }
 
 OutputFile policy_file(fs::path path, std::string option) {
@@ -61,6 +64,10 @@ std::string why_not_writable(const fs::path& file) {
 
 bool check_output(const OutputFile& file) {
   if (file.path.empty()) throw InvalidInput("--out needs the name of a file");
+  if (const std::string ending = file.path.extension().string();
+      !ending.empty() && !file.endings.empty() && std::ranges::find(file.endings, ending) == file.endings.end())
+    throw InvalidInput(
+        fmt::format("{}: a {} must end in {}", file.path.string(), file.kind, fmt::join(file.endings, " or ")));
   std::error_code ignored;
   const fs::file_status status = fs::symlink_status(file.path, ignored);
   const auto is_ours = [&] {

@@ -1,5 +1,7 @@
 #include "apps/cli/report_page.hpp"
 
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -25,10 +27,13 @@ constexpr const char* kPage = "report.html";
       fmt::format("the page of reports is not built; with nodejs and npm installed: {}{}", command, install));
 }
 
-/// The page without data, in the build folder or where `cmake --install` put it.
+/// The page without data: in `share`; else in the build folder or where `cmake --install` put it. The order matters,
+/// since the program may be Python, beside which another installation has its page.
 std::string page_template(const std::string& share) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& folder : {program / "share/rehearse", program.parent_path() / "share/rehearse", fs::path(share)})
+  std::vector<fs::path> folders{program / "share/rehearse", program.parent_path() / "share/rehearse"};
+  if (!share.empty()) folders.insert(folders.begin(), share);
+  for (const fs::path& folder : folders)
     if (fs::exists(folder / kPage)) return files::read_file(folder / kPage, files::Links::follow);
   refuse_without_page(program, share);
 }

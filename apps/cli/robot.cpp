@@ -192,10 +192,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   require_page(arguments.out, violations);
   violations.require(!arguments.out || !arguments.no_plant, "--out shows the plant's motion: leave --no-plant out");
   violations.throw_if_any();
-  if (arguments.out) {  // before the robot moves
-    check_output(page_file(*arguments.out, "--out FILE.html"));
-    require_page_template(share);
-  }
+  if (arguments.out) require_page_template(share);  // before the robot moves
   const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
   const auto builder = catalogue.scenario_or_throw(catalogue.scenario_name(arguments.robot));
   scenario::Scenario scenario = builder->build();

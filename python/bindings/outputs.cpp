@@ -1,5 +1,6 @@
 #include "python/bindings/outputs.hpp"
 
+#include <filesystem>
 #include <string>
 
 #include "apps/catalogue.hpp"
@@ -42,7 +43,8 @@ void add_outputs(py::module_& module) {
   module.def(
       "write_policy",
       [](const std::string& path, const std::string& text) {
-        apps::write_output(apps::policy_file(path, "export(\"FILE.h\")"), text);
+        apps::write_output(
+            apps::policy_file(path, "export(\"FILE" + std::filesystem::path(path).extension().string() + "\")"), text);
       },
       "path"_a, "text"_a);
 }

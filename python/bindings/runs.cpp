@@ -92,7 +92,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
     const experiment::Resolved run = resolved(catalogue, request);
     own.try_out(run.scenario);
     warn(run.warnings);
-    if (folder.empty()) folder = "runs/" + run_name(run.spec);
+    if (folder.empty()) folder = default_folder(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
     warn(other_readings(own, catalogue, folder, options));
   };

@@ -16,7 +16,6 @@ from .checks import function_or_none, mapping, mappings, path_of, path_or_none, 
 from .progress import show
 from .robot import Robot
 from .given_robot import Robots, begun_with, name_of, robot_of
-from .messages import for_python
 from .run import PathLike, Progress, Run, write_report
 from .tables import WHOLE, column_of, html_table, read_csv, structured
 from .toml import quoting, table
@@ -177,8 +176,7 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
     try:
         _core.campaign(core, text, source, scenario, folder, part, threads, progress)
     except _core.InvalidInput as error:
-        quoted = quoting(text.decode(errors="replace"), source, str(error))
-        raise _core.InvalidInput(for_python(quoted, own)) from None
+        raise _core.InvalidInput(quoting(text.decode(errors="replace"), source, str(error))) from None
     except KeyboardInterrupt as stopped:
         if stopped.args or not Path(folder).exists():
             raise

@@ -10,7 +10,7 @@ from typing import Union
 
 from . import _core
 from ._core import InvalidInput
-from .checks import page_path, path_of, truth
+from .checks import path_or_none, truth
 from .given_robot import Robots, robot_of
 from .run import learn, write_replay
 from .tables import without_path
@@ -76,15 +76,15 @@ def check(robot: Robots, *, plant: bool = True, out: Union[str, os.PathLike[str]
     """
     if out is not None and not truth("plant", plant):
         raise InvalidInput("out shows the plant's motion: leave plant=False out")
-    page = None if out is None else page_path(path_of("out", out))
-    if page is not None:
+    page = path_or_none("out", out)
+    if page:
         from .__main__ import share
 
-        _core.check_page(str(page), str(share()))  # before the robot moves
-    found = _core.check(*robot_of(robot), truth("plant", plant), page is not None)
+        _core.check_page(page, str(share()))  # before the robot moves
+    found = _core.check(*robot_of(robot), truth("plant", plant), bool(page))
     priors, failed = [PriorChecked(**prior) for prior in found.pop("priors")], found.pop("plant_failed")
-    if page is not None and not failed:
-        _show_motion(robot, page)
+    if page and not failed:
+        _show_motion(robot, Path(page))
     return Checked(priors=priors, **found)
 
 

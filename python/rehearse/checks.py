@@ -145,9 +145,9 @@ def option_texts(options: Union[Mapping[str, Any], None]) -> list[tuple[str, str
 
 
 def read_text(path: Union[str, os.PathLike[str]]) -> str:
-    """The text of a file of ours, which is UTF-8 whatever the locale."""
+    """The text of a file of ours, which is UTF-8 whatever the locale. Its line ends stay, since its bytes have a checksum."""
     try:
-        return Path(path_of("path", path)).read_text(encoding="utf-8")
+        return Path(path_of("path", path)).read_bytes().decode("utf-8")
     except UnicodeDecodeError:
         raise InvalidInput(f"{os.fspath(path)} is no text: it has bytes that are not UTF-8") from None
 
@@ -158,18 +158,10 @@ def read_if_any(name: str, path: Any, kinds: str) -> str:
     return read_text(given) if given else ""
 
 
-def page_path(path: Union[str, os.PathLike[str]]) -> Path:
-    """The path of a page."""
-    if Path(path_of("path", path)).suffix != ".html":
-        raise InvalidInput(f"{os.fspath(path)}: must end in .html")
-    return Path(path)
-
-
 def write_page(path: Union[str, os.PathLike[str]], page: str) -> Path:
     """Writes a page. A file of that name that is none is left as it is."""
-    path = page_path(path)
-    _core.write_page(str(path), page)
-    return path
+    _core.write_page(path_of("path", path), page)
+    return Path(path)
 
 
 def write_text(path: Union[str, os.PathLike[str]], content: str) -> Path:

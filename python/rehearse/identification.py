@@ -14,7 +14,6 @@ from . import _core
 from .arrays import Array
 from .checks import option_texts, text, threads_of, write_page
 from .given_robot import Robots, robot_of
-from .messages import said_for_python
 from .tables import TEXTS, as_files, from_csv, without_path
 
 
@@ -73,7 +72,7 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
     """
     logs, held_out = _several(logs), _several(held_out)
     prior = None if prior is None else text("prior", prior)
-    with tempfile.TemporaryDirectory() as folder, without_path(folder), said_for_python():
+    with tempfile.TemporaryDirectory() as folder, without_path(folder):
         learned_from = as_files(logs, folder, "log")
         forecast = as_files(held_out, folder, "held-out")
         core, scenario = robot_of(robot)

@@ -17,7 +17,6 @@ from .arrays import Array
 from .checks import number, numbers, option_texts, path_of, read_text, vector, whole
 from .exported import Exported
 from .given_robot import Robots, robot_of
-from .messages import said_for_python
 
 Times = Union[float, npt.ArrayLike]
 
@@ -47,8 +46,7 @@ class Policy:
         policy, {"policy": "mlp", "hidden": 8}. docs/python.md has the order of θ."""
         core, scenario = robot_of(robot)
         given = None if theta is None else vector("theta", theta)
-        with said_for_python():
-            return cls(_core.policy_for(core, scenario, option_texts(options), given))
+        return cls(_core.policy_for(core, scenario, option_texts(options), given))
 
     def with_theta(self, theta: npt.ArrayLike) -> Policy:
         """The same with other parameters."""

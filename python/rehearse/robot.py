@@ -43,7 +43,6 @@ class Robot:
     Raises InvalidInput at once, with a line for everything that is wrong.
     """
 
-    plays_environment = False  # its plant is one
 
     def __init__(
         self,
@@ -211,7 +210,7 @@ class Robot:
             return [self._dynamics(name, plant),
                     table("[plant]", {"dynamics": name, "measurement_noise": given,
                                       "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
-        self.one_at_a_time, self.plays_environment = is_environment(plant) or is_real(plant), True
+        self.one_at_a_time = is_environment(plant) or is_real(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": given})]
 

@@ -19,7 +19,6 @@ from .checks import (function_or_none, number, option_texts, path_of, path_or_no
                      threads_of, truth, whole, whole_or_none, write_page)
 from .evaluation import Evaluation
 from .given_robot import Robots, begun_with, robot_of
-from .messages import said_for_python
 from .policy import Policy
 from .progress import show
 from .robot import Robot
@@ -97,13 +96,13 @@ class Run:
 
     def policy(self, trial: Union[int, None] = None) -> Policy:
         """The policy of a trial, by default of the best."""
-        return Policy(self._do(_core.policy, str(self.folder), whole_or_none("trial", trial)))
+        return Policy(_core.policy(self._core, str(self.folder), whole_or_none("trial", trial)))
 
     # Actions.
 
     def resume(self, trials: Union[int, None] = None, *, threads: int = 0, progress: Progress = show) -> Run:
         """Goes on to the end, or to another number of trials. The same bytes as if it had never stopped."""
-        self._do(_core.resume, str(self.folder), whole_or_none("trials", trials), threads_of(threads),
+        _core.resume(self._core, str(self.folder), whole_or_none("trials", trials), threads_of(threads),
                  function_or_none("progress", progress))
         return self
 
@@ -112,7 +111,7 @@ class Run:
 
         `asked` is then what is predicted of it, the risks of limits too; its notes are warnings.
         """
-        policy, trial = self._do(_core.ask, str(self.folder), threads_of(threads), function_or_none("progress", progress))
+        policy, trial = _core.ask(self._core, str(self.folder), threads_of(threads), function_or_none("progress", progress))
         for note in trial["notes"]:
             warnings.warn(note, stacklevel=2)
         return Policy(policy)
@@ -125,15 +124,14 @@ class Run:
         every action, by name. A horizon of T steps takes T + 1 rows: the last has the final state, and needs no action.
         What is unlike the policy or the clock is warned of. stopped: why it was cut short; at_fault=False: not because of the policy.
         """
-        if stopped is not None and not text("stopped", stopped).strip():
-            raise _core.InvalidInput("stopped is empty, must say why the episode was cut short")
+        stopped = None if stopped is None else text("stopped", stopped)
         at_fault = truth("at_fault", at_fault)
         if stopped is None and not at_fault:
             raise _core.InvalidInput("at_fault=False goes with stopped, which says why the episode was cut short")
         with tempfile.TemporaryDirectory() as folder:
             files = as_files(episodes, folder, "episode")
             with without_path(folder):
-                told = dict(self._do(_core.tell, str(self.folder), files, stopped, at_fault, threads_of(threads)))
+                told = dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads_of(threads)))
         if told["known_before"]:
             warnings.warn("this was told before: nothing changes", stacklevel=2)
         for note in told["notes"]:
@@ -143,7 +141,7 @@ class Run:
     def take_back(self, *, threads: int = 0) -> dict[str, Any]:
         """Takes the last `tell` back, when it took the wrong file: the folder is as before, byte for byte, but for
         taken-back, where what was told is kept. Again, it takes back the one before. Returns trial (None: logs) and files."""
-        return dict(self._do(_core.take_back, str(self.folder), threads_of(threads)))
+        return dict(_core.take_back(self._core, str(self.folder), threads_of(threads)))
 
     def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None,
                  policy: Union[Policy, PathLike, None] = None, seconds: float = 0.0, seed: Union[int, None] = None,
@@ -153,7 +151,7 @@ class Run:
         is the run's. options: what is changed, {"plant.m": 0.6}; of an environment there are none, and
         `open_run(folder, other_robot)` evaluates on another one. An environment that is an object, not a function that
         makes one, and a class with `end`, which is a real robot, are used by one thread."""
-        result = self._do(_core.evaluate, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
+        result = _core.evaluate(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
                           result["ended_s"], result["broke"])
 
@@ -162,7 +160,7 @@ class Run:
                    options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Array:
         """Such episodes with one parameter of the robot changed at a time, by factors of 0.75 to 1.25: the rows of
         robustness.csv (docs/evaluate.md). An environment has no parameters to change."""
-        text = self._do(_core.robustness, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
+        text = _core.robustness(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
         return from_csv(text, TEXTS, WHOLE)
 
     def report(self, out: Union[PathLike, None] = None) -> Path:
@@ -201,10 +199,6 @@ class Run:
     @property
     def _core(self) -> Any:
         return self._robot._core if self._robot is not None else _core.Robot("", "", "")
-
-    def _do(self, work: Callable[..., Any], *arguments: Any) -> Any:
-        with said_for_python(self._robot, self.folder):
-            return work(self._core, *arguments)
 
     def _request(self, trial: Union[int, None], policy: Union[Policy, PathLike, None], episodes: int, seconds: float,
                  seed: Union[int, None], options: Union[Mapping[str, Any], None]) -> Any:
@@ -252,10 +246,9 @@ def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], 
     core, scenario = robot_of(robot)
     names = ",".join(texts("prior", [] if prior is None else prior, "a name, several, or None"))
     own = robot if isinstance(robot, Robot) else None
-    with said_for_python(own):
-        folder = _core.learn(core, scenario, text("learner", learner), names, path_of("preset", preset, "a name or a path"),
-                             _json_of(policy), trials, truth("until_solved", until_solved), seed, option_texts(options),
-                             path_or_none("out", out), threads, function_or_none("progress", progress))
+    folder = _core.learn(core, scenario, text("learner", learner), names, path_of("preset", preset, "a name or a path"),
+                         _json_of(policy), trials, truth("until_solved", until_solved), seed, option_texts(options),
+                         path_or_none("out", out), threads, function_or_none("progress", progress))
     return Run(folder, own)
 
 

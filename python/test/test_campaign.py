@@ -379,7 +379,7 @@ def test_what_is_wrong_is_said_and_leaves_no_folder(tmp_path):
         campaign(cart(), tmp_path / "out", seeds=1, trials=1, set={**QUICK, "search.selection": 11})
     with pytest.raises(rehearse.InvalidInput, match="has no run 'x' .known: cart-gp-mi-light-1"):
         done.run("x")
-    with pytest.raises(rehearse.InvalidInput, match=r"rehearse.open_campaign\(folder, robot\).run\('cart-gp-mi-light-1'\), or "):
+    with pytest.raises(rehearse.InvalidInput, match=r"the robot is given again, rehearse.open_run\(folder, robot\)"):
         rehearse.open_campaign(done.folder).run("cart-gp-mi-light-1").evaluate(2)
     assert len(rehearse.open_campaign(done.folder, cart()).run("cart-gp-mi-light-1").evaluate(2).returns) == 2
     with pytest.raises(TypeError, match="^robot is 'cart', must be the Robot that the folder began with$"):

@@ -149,10 +149,9 @@ def test_a_policy_is_tried_on_another_environment(tmp_path):
     run = learn(cart(functools.partial(Heavy, 1.6)), tmp_path / "run", trials=1)
     own, heavy = (rehearse.open_run(run.folder, cart(functools.partial(Heavy, mass))).evaluate(2).returns for mass in (1.6, 3))
     assert (own == run.evaluate(2).returns).all() and (heavy != own).all()
-    advice = r"the plant is an environment, .*: rehearse.open_run\(folder, other_robot\).evaluate\(100\)$"
-    with pytest.raises(rehearse.InvalidInput, match=f"^unknown option 'plant.mass': {advice}"):
+    with pytest.raises(rehearse.InvalidInput, match="^unknown option 'plant.mass': the plant of cart has no parameters that are options$"):
         run.evaluate(2, options={"plant.mass": 3})
-    with pytest.raises(rehearse.InvalidInput, match=f"^robustness changes parameters of the plant, and {advice}"):
+    with pytest.raises(rehearse.InvalidInput, match="^scenario cart has no parameter scenario.plant.NAME that could be changed$"):
         run.robustness(2)
 
 
@@ -170,5 +169,5 @@ def test_options_are_looked_up_in_python(tmp_path):
     run = learn(cart(), tmp_path / "run", trials=1)
     for call in (lambda: run.evaluate(2, options={"colour": 3}), lambda: learn(cart(), tmp_path / "other", options={"colour": 3}),
                  lambda: rehearse.Policy.of(cart(), options={"colour": 3})):
-        with pytest.raises(rehearse.InvalidInput, match="^unknown option 'colour': `rehearse.options` of a robot or learner names all"):
+        with pytest.raises(rehearse.InvalidInput, match="^unknown option 'colour': .* in Python `rehearse.options`$"):
             call()

@@ -209,3 +209,11 @@ def test_the_robot_of_a_run_finds_its_files(tmp_path):
         rehearse.Robot.from_file(tmp_path / "robot.toml")
     (tmp_path / "spec.toml").touch()  # so it is a run's
     assert rehearse.Robot.from_file(tmp_path / "robot.toml").name.startswith("furuta")
+
+
+def test_a_file_keeps_its_line_ends(tmp_path):
+    programs = pathlib.Path(__file__).parents[2] / "examples/robots"
+    text = (programs / "acrobot.toml").read_bytes().replace(b"\n", b"\r\n")
+    (tmp_path / "acrobot.toml").write_bytes(text)
+    run = rehearse.learn(tmp_path / "acrobot.toml", trials=0, out=tmp_path / "run", progress=None)
+    assert (run.folder / "robot.toml").read_bytes() == text

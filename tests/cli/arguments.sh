@@ -201,9 +201,9 @@ mv linked/spec.toml kept.toml
 mkfifo linked/spec.toml
 expect 2 "linked/spec.toml: it is no regular file" 1 report linked
 expect 2 "linked/spec.toml: it is no regular file" 1 replay linked --trial 1
-expect 2 "--out a.svg: it is a page, must end in .html or .htm" 1 report linked --out a.svg
-expect 2 "--out a.svg: it is a page, must end in .html or .htm" 2 replay linked --trial 0 --out a.svg
-expect 2 "--out a.svg: it is a page, must end in .html or .htm" 1 check pendulum --out a.svg
+expect 2 "a.svg: a page of Rehearse must end in .html or .htm" 1 report linked --out a.svg
+expect 2 "a.svg: a page of Rehearse must end in .html or .htm" 2 replay linked --trial 0 --out a.svg
+expect 2 "a.svg: a page of Rehearse must end in .html or .htm" 1 check pendulum --out a.svg
 expect 2 "--out shows the plant's motion: leave --no-plant out" 1 check pendulum --out a.html --no-plant
 expect 0 "left alone" - check pendulum --no-plant
 sleep 0 & killed=$!

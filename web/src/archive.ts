@@ -4,6 +4,7 @@ import { scaleOf, type Scale } from './colours'
 import { parseHeader, present, withUnit, type Archive, type Run } from './data'
 import { h, type Child } from './dom'
 import type { Row } from './export'
+import { largest, least } from './extent'
 import { figure, tableFigure } from './figure'
 import { count, number } from './format'
 import { choice } from './layout'
@@ -133,14 +134,7 @@ function aboutOf({ promised, space }: Archive): Child {
 /** A scale whose lowest colour is the lowest return that the prior predicts, and any below it. */
 function scaleOfArchive({ promised, expected }: Archive, trials: Trial[]): Scale {
   const observed = trials.flatMap((trial) => (trial.observed === null ? [] : [trial.observed]))
-  return scaleOf(
-    least(promised),
-    [promised, expected, observed].reduce((most, some) => Math.max(most, -least(some.map((v) => -v))), -Infinity),
-  )
-}
-
-function least(values: number[]): number {
-  return values.reduce((so, value) => Math.min(so, value), Infinity)
+  return scaleOf(least(promised), largest([promised, expected, observed].map(largest)))
 }
 
 /** The axes of the descriptors. Cells are those of a grid; else the fewer elites, the larger the cells. */
@@ -154,7 +148,7 @@ function axesOf({ descriptors, promised, space }: Archive): Axis[] {
 }
 
 function extent(values: number[]): [number, number] {
-  const [low, high] = [least(values), -least(values.map((value) => -value))]
+  const [low, high] = [least(values), largest(values)]
   return low < high ? [low, high] : [low - 1, high + 1]
 }
 

@@ -16,13 +16,14 @@ export function robustness({ robustness }: Run): Child {
   const domain = known
     ? { domain: [0, 1] as [number, number] }
     : fit(parameters.flatMap(({ columns }) => heights({ points: of(columns) })))
+  const factors = fit(parameters.flatMap(({ columns }) => (columns['factor'] ?? []).filter(present)))
   const panel = ({ parameter, columns }: { parameter: string; columns: Columns }): Panel => ({
     title: parameter,
     draw: (width) =>
       chart({
         width,
         height: 200,
-        x: { label: 'times the robot’s value', domain: [0.72, 1.28] },
+        x: { label: 'times the robot’s value', ...factors },
         y: { label: known ? 'solved at the end' : 'return', percent: known, ...domain },
         series: [{ label: parameter, colour: REAL, points: of(columns), symbol: 'circle' }],
       }),

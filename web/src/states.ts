@@ -30,7 +30,7 @@ export function stateLegend({ trajectory, prediction }: Episode): LegendEntry[] 
     entries.push({ label: 'as measured', colour: REAL, symbol: 'circle', line: false })
   if (prediction)
     entries.push(MEAN, {
-      label: '5–95 % and 25–75 % of 100 simulated episodes',
+      label: `5–95 % and 25–75 % of ${column(prediction, 'particles')?.[0] ?? 'the'} simulated episodes`,
       colour: PREDICTED,
       band: 0.3,
       line: false,

@@ -49,7 +49,9 @@ struct CampaignPlan {
   std::vector<MissingLearner> missing;
   std::vector<PlannedClaim> claims;
 
-  const PlannedRun& run(std::size_t group, std::size_t seed) const { return runs[group * seeds.size() + seed]; }
+  /// Where a run stands in `runs`, unless they are those of a share.
+  std::size_t index_of(std::size_t group, std::size_t seed) const { return group * seeds.size() + seed; }
+  const PlannedRun& run(std::size_t group, std::size_t seed) const { return runs[index_of(group, seed)]; }
 };
 
 }  // namespace rehearse::campaign

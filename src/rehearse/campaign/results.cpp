@@ -41,7 +41,7 @@ std::vector<std::string> Campaign::remarks() const {
 Index Campaign::count(RunState state) const { return std::ranges::count(runs, state, &RunOutcome::state); }
 
 Index Campaign::count(RunState state, std::size_t group) const {
-  const auto first = runs.begin() + static_cast<std::ptrdiff_t>(group * plan.seeds.size());
+  const auto first = runs.begin() + static_cast<std::ptrdiff_t>(plan.index_of(group, 0));
   return std::ranges::count(first, first + std::ssize(plan.seeds), state, &RunOutcome::state);
 }
 

@@ -47,9 +47,7 @@ struct Campaign {
   std::vector<RunOutcome> runs;
   std::vector<Skipped> skipped;
 
-  const RunOutcome& outcome(std::size_t group, std::size_t seed) const {
-    return runs[group * plan.seeds.size() + seed];
-  }
+  const RunOutcome& outcome(std::size_t group, std::size_t seed) const { return runs[plan.index_of(group, seed)]; }
   Index count(RunState state) const;
   Index count(RunState state, std::size_t group) const;
   /// A line for each learner that is missing, each thing in the folder that is none of its own, and each run that

@@ -114,6 +114,8 @@ void refuse_trial_among_logs(const scenario::Scenario& scenario, const History& 
 }
 
 void check(const History& history, const std::vector<ToldFile>& files, const TellRequest& request) {
+  if (request.stopped && request.stopped->reason.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw InvalidInput("--stopped (in Python stopped=) says no reason: why the episode was cut short");
   if (are_logs(history, request) && request.stopped)
     throw InvalidInput(fmt::format("--stopped (in Python stopped=) is for the episode of a trial, but {}",
                                    history.asked ? "several files are logs" : "none was asked for"));

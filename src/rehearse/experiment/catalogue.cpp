@@ -23,6 +23,7 @@ std::string first_difference(const std::string& text, const std::string& other) 
     const bool more_there = static_cast<bool>(std::getline(of_other, others));
     if (!more) line.clear();
     if (!more_there) others.clear();
+    if (line == others + "\r" || others == line + "\r") return "their lines end differently";
     if (line != others || !(more || more_there)) return fmt::format("`{}` in the one, `{}` in the other", line, others);
   }
 }

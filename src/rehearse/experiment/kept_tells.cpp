@@ -108,7 +108,7 @@ void keep_tell(const RunFolder& run, const std::vector<ToldFile>& files) {
     throw;
   }
   const Index last = all.empty() ? 0 : tell_number(all.back());
-  fs::rename(unfinished, tells_of(run) / fmt::format("{:03}", last + 1));
+  files::rename_new(unfinished, tells_of(run) / fmt::format("{:03}", last + 1));
 }
 
 void forget_tell(const RunFolder& run) {

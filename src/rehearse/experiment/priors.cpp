@@ -52,7 +52,8 @@ void set_value(scenario::NamedPrior& prior, const std::string& parameter, double
 
 std::string unknown_option(const std::string& key, const std::vector<std::string>& known, const std::string& of) {
   const std::string meant = did_you_mean(key, known);
-  return fmt::format("unknown option '{}'{}", key, meant.empty() ? fmt::format(": `list` of {} names all", of) : meant);
+  return fmt::format("unknown option '{}'{}", key,
+                     meant.empty() ? fmt::format(": `list` of {} names all, in Python `rehearse.options`", of) : meant);
 }
 
 std::vector<std::string> split_names(const std::string& text) {

@@ -1,5 +1,7 @@
 #include "rehearse/experiment/resolve.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -146,7 +148,7 @@ class Resolver {
     const Fields of_run = [this](FieldVisitor& v) { spec_.settable_fields(v); };
     const bool known = contained([&] { return set_named(key, text) || set_field(of_run, key, text); }).value_or(true);
     if (!known && !key.starts_with(kPrior))  // these wait until the scenario is built
-      violations_.add(unknown_option(key, options_like(key)));
+      violations_.add(why_unknown(key));
   }
 
   /// Sets the scenario's options that the learner prefers, as far as the scenario has them.
@@ -162,12 +164,22 @@ class Resolver {
   void set_defaults(const Preset& preset) {
     for (const FileOption& option : preset.options(spec_.scenario, spec_.learner)) {
       try {
-        if (!set_named(option.key, option.text))
-          throw InvalidInput(unknown_option(option.key, options_like(option.key)));
+        if (!set_named(option.key, option.text)) throw InvalidInput(why_unknown(option.key));
       } catch (const InvalidInput& error) {
         violations_.add(files::in_file(preset.source(), option.line, error.what()));
       }
     }
+  }
+
+  std::string why_unknown(const std::string& key) const {
+    const std::vector<std::string> known = options_like(key);
+    const auto of_plant = [](const std::string& name) {
+      return name.starts_with("plant.") || name.starts_with("scenario.plant.");
+    };
+    if (of_plant(key) && std::none_of(known.begin(), known.end(), of_plant))
+      return fmt::format("unknown option '{}': the plant of {} has no parameters that are options", key,
+                         spec_.scenario);
+    return unknown_option(key, known);
   }
 
   /// The options that a key may mean, written like the key: with its prefix if it has one, then of that section alone.

@@ -1,5 +1,7 @@
 #include "rehearse/experiment/robustness.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -45,6 +47,13 @@ Resolved with_prior_at(Resolved run, const std::string& parameter, double value)
   return run;
 }
 
+/// The robot; none where the value is beyond the bounds of its option.
+std::optional<Resolved> within_bounds(const std::function<Resolved()>& make) try {
+  return make();
+} catch (const InvalidInput&) {
+  return std::nullopt;
+}
+
 void add_rate(std::vector<std::string>& row, const std::optional<statistics::Rate>& rate) {
   using files::Csv;
   if (!rate) return row.resize(row.size() + 3);
@@ -61,13 +70,15 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
   for (const auto& [parameter, value] : parameters_of(run))
     for (const double factor : kFactors) {
       const double changed = factor * value;
+      std::optional<Resolved> robot;  // none: as it is
+      if (factor != 1) {
+        if (run.stand_in())
+          robot = with_prior_at(run, parameter, changed);
+        else if (robot = within_bounds([&] { return make(kPlant + parameter, fmt::format("{}", changed)); }); !robot)
+          continue;
+      }
       all.push_back({parameter, factor, changed, {}});
-      if (factor == 1)
-        robots.emplace_back();  // as it is
-      else if (run.stand_in())
-        robots.emplace_back(with_prior_at(run, parameter, changed));
-      else
-        robots.emplace_back(make(kPlant + parameter, fmt::format("{}", changed)));
+      robots.push_back(std::move(robot));
     }
   const Summary unchanged = summary_of(evaluate(run, learned, plan, evaluator));
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -21,8 +21,8 @@ inline const std::vector<double> kFactors = {0.75, 0.875, 1, 1.125, 1.25};
 
 /// Evaluates the policy with one parameter of the plant changed at a time, each of the options plant.NAME (where the
 /// prior plays the robot, of its parameters that are no choices) that is not 0, by every factor, always with the same
-/// random numbers. make: the run with one more option (`read_run`). Throws InvalidInput if the scenario has no such
-/// option, and what `evaluate` throws.
+/// random numbers. Values beyond the bounds of their option are left out. make: the run with one more option
+/// (`read_run`). Throws InvalidInput if the scenario has no such option, and what `evaluate` throws.
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator);

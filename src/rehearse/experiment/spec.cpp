@@ -37,6 +37,8 @@ std::string run_name(const Spec& spec, const std::string& variant) {
   return folder_name_of(name + fmt::to_string(spec.seed));
 }
 
+std::string default_folder(const Spec& spec) { return "runs/" + run_name(spec); }
+
 Spec with_options(Spec spec, const std::vector<FileOption>& options) {
   for (const FileOption& option : options) spec.options.emplace_back(option.key, option.text);
   return spec;

@@ -81,6 +81,9 @@ std::optional<Vector> start_of(const std::string& text);
 /// learner that takes none. It names a folder on every file system.
 std::string run_name(const Spec& spec, const std::string& variant = "");
 
+/// The folder of a run that is given none.
+std::string default_folder(const Spec& spec);
+
 /// An option as a file has it.
 struct FileOption {
   std::string key, text;

@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
@@ -50,6 +51,12 @@ void sync_folder(const std::filesystem::path& path) {
   ::close(descriptor);
 }
 
+/// Gives a file the permissions of the one that it replaces, if there is one.
+void take_permissions(const std::filesystem::path& file, const std::filesystem::path& replaced) {
+  struct stat old = {};
+  if (::lstat(replaced.c_str(), &old) == 0 && S_ISREG(old.st_mode)) ::chmod(file.c_str(), old.st_mode & 07777);
+}
+
 void replace(const std::filesystem::path& path, const std::string& suffix, std::string_view bytes,
              Durability durability) {
   const bool durable = durability == Durability::power;
@@ -57,6 +64,7 @@ void replace(const std::filesystem::path& path, const std::string& suffix, std::
   {
     ::unlink(temporary.path().c_str());  // whatever a kill, or somebody, left there
     RegularFile file(temporary.path(), O_WRONLY | O_CREAT | O_EXCL);
+    if (file.open()) take_permissions(temporary.path(), path);
     if (!file.open() || !file.write(bytes) || (durable && !file.sync()) || !file.close()) cannot("write", path);
   }
   if (!temporary.rename(path)) cannot("write", path);

@@ -11,8 +11,6 @@
 namespace rehearse::report {
 namespace {
 
-bool has_sentences(const std::string& column) { return column == "note" || column == "warning" || column == "limit"; }
-
 /// no_number(row): the first cell that is neither a number nor empty.
 template <class NoNumber>
 Json numbers(const files::Table& table, std::size_t position, NoNumber no_number) {
@@ -35,7 +33,7 @@ bool check_depth(int depth, Json::parse_event_t, Json&) {
   return true;
 }
 
-Json sentences(const files::Table& table, std::size_t position) {
+Json texts(const files::Table& table, std::size_t position) {
   Json column = Json::array();
   for (const auto& row : table.rows) column.push_back(row[position]);
   return column;
@@ -73,14 +71,15 @@ Json rounded(Json json) {
   return json;
 }
 
-Json columns(const files::Table& table, const std::filesystem::path& where, Problems& problems) {
+Json columns(const files::Table& table, const std::filesystem::path& where, Problems& problems,
+             const std::string& of_texts) {
   Json all = Json::object();
   for (std::size_t i = 0; i < table.header.size(); ++i) {
     const std::string& name = table.header[i];
     const auto no_number = [&](std::size_t row) {
       problems.add(where, fmt::format("row {}: {} = {}, must be a number", row + 2, name, table.rows[row][i]));
     };
-    all[name] = has_sentences(name) ? sentences(table, i) : numbers(table, i, no_number);
+    all[name] = name == of_texts ? texts(table, i) : numbers(table, i, no_number);
   }
   return all;
 }

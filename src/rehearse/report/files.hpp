@@ -54,8 +54,9 @@ class Problems {
   std::vector<Problem> list_;
 };
 
-/// Column name → cells. All are numbers or empty (null) but those of the columns of texts, `note`, `warning` and
-/// `limit`; what should be a number and is none becomes null, and the first one of a column a problem.
-Json columns(const files::Table& table, const std::filesystem::path& where, Problems& problems);
+/// Column name → cells. All are numbers or empty (null) but those of the column `of_texts`; what should be a number and
+/// is none becomes null, and the first one of a column a problem.
+Json columns(const files::Table& table, const std::filesystem::path& where, Problems& problems,
+             const std::string& of_texts = "");
 
 }  // namespace rehearse::report

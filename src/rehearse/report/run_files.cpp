@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -143,7 +144,7 @@ Json limits_json(const fs::path& folder, Problems& problems) {
   if (!fs::exists(folder / path)) return {};
   const auto table = problems.value_or_problem(path, [&] { return read_table(folder / path); });
   if (!table) return {};
-  Json numbers = columns(*table, path, problems);
+  Json numbers = columns(*table, path, problems, "limit");
   Json names = numbers.value("limit", Json::array());
   numbers.erase("limit");
   return {{"names", std::move(names)}, {"numbers", std::move(numbers)}};
@@ -223,13 +224,14 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const Knowledge
     run["trials"] = columns(*table, "trials.csv", problems);
     run["truth"] = truths(spec, *table);
   }
-  std::vector<std::string> tables{"timings", "errors", "notes"};
+  const std::string none;
+  std::vector<std::pair<std::string, std::string>> tables{{"timings", none}, {"errors", none}, {"notes", "note"}};
   if (fs::exists(folder / "identifiability.csv"))
-    tables.emplace_back("identifiability");  // not in the folders of older versions
-  for (const std::string& name : tables) {
+    tables.emplace_back("identifiability", "warning");  // not in the folders of older versions
+  for (const auto& [name, of_texts] : tables) {
     const fs::path path = name + ".csv";
     if (const auto table = problems.value_or_problem(path, [&] { return read_table(folder / path); }))
-      run[name] = columns(*table, path, problems);
+      run[name] = columns(*table, path, problems, of_texts);
   }
   if (Json limits = limits_json(folder, problems); !limits.is_null()) run["limits"] = std::move(limits);
   problems.value_or_problem("checkpoint", [&] { return check_checkpoint(folder / "checkpoint"), true; });

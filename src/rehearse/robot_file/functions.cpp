@@ -6,8 +6,8 @@ namespace rehearse::robot_file {
 
 std::string missing_function(const std::string& name) {
   return fmt::format(
-      "'{}' is a function of the program that wrote this file, and this one has none of that name "
-      "(in Python the robot is given again: rehearse.resume(folder, robot))",
+      "'{}' is a function of the program that wrote this file, and no file keeps functions: in Python the robot is "
+      "given again, rehearse.open_run(folder, robot)",
       name);
 }
 

@@ -107,12 +107,12 @@ std::string fault(const Hint& hint, const Task& task) {
     return fmt::format("the action {} seems to have the other sign",
                        task.actions[static_cast<std::size_t>(hint.negated)].name);
   if (hint.states.empty())
-    return fmt::format("actions seem to act {:.3g} s {} than their rows say (--set read.action_delay_s{})",
+    return fmt::format("actions seem to act {:.3g} s {} than their rows say (read.action_delay_s of `identify`{})",
                        std::abs(hint.delay_s), hint.delay_s > 0 ? "later" : "earlier",
                        hint.delay_s > 0 ? "; to learn, delay_s of the action" : "");
   std::vector<std::string> names;
   for (const Index s : hint.states) names.push_back(task.states[static_cast<std::size_t>(s)].name);
-  return fmt::format("the zero of {} seems to be off (--set zeros={})", fmt::join(names, " and of "),
+  return fmt::format("the zero of {} seems to be off (zeros={} of `identify`)", fmt::join(names, " and of "),
                      fmt::join(names, ","));
 }
 

@@ -18,7 +18,7 @@ struct Hint {
   double errors = 1;               // over the fit's horizon, of those that are left as the logs are read
 };
 
-/// "actions seem to act 0.06 s later than …", with the option to try.
+/// "actions seem to act 0.06 s later than …", with the option of `identify` to try.
 std::string line_of(const Hint& hint, const Task& task);
 
 /// The better readings, the best first, found from the first four logs. The robot is without actuators

@@ -79,6 +79,7 @@ TEST(Catalogue, SaysWhereTwoRobotsOfOneNameDiffer) {
   const std::string both = "other.toml and line.toml are two robots of one name, 'line': ";
   EXPECT_EQ(complaint_of("a = 1\nb = 3\n"), both + "`b = 3` in the one, `b = 2` in the other");
   EXPECT_EQ(complaint_of("a = 1\n"), both + "`` in the one, `b = 2` in the other");
+  EXPECT_EQ(complaint_of("a = 1\r\nb = 2\r\n"), both + "their lines end differently");
 }
 
 // Arguments of programs are asked for, which may be scripts.

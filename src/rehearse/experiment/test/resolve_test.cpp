@@ -42,7 +42,8 @@ TEST(Spec, DefaultsOfAScenarioComeBeforeTheUsersOptions) {
   EXPECT_EQ(resolve(catalogue, spec_of("echo", "near")).spec.options[4], known);
   EXPECT_EQ(resolve(catalogue, spec_of("echo", "near", {{"search.step", "2"}})).spec.options[4], wanted);
   EXPECT_EQ(fake::message_of<InvalidInput>([&] { resolve(catalogue, spec_of("echo-alone", "")); }),
-            "presets/defaults/line.toml: line 7: unknown option 'of.others': `list` of a robot or learner names all");
+            "presets/defaults/line.toml: line 7: unknown option 'of.others': `list` of a robot or learner names all, "
+            "in Python `rehearse.options`");
 }
 
 /// A robot whose plant has what its oracle lacks, and a prior without anything to tune.
@@ -175,7 +176,7 @@ TEST(Spec, NamesAllViolationsAtOnce) {
             "trials = -3, must be between 0 and 1000000\n"
             "noise = -1, must be ≥ 0\n"
             "search.step = fast, must be a number\n"
-            "unknown option 'colour': `list` of a robot or learner names all");
+            "unknown option 'colour': `list` of a robot or learner names all, in Python `rehearse.options`");
 }
 
 /// The line, without a word on what is solved.

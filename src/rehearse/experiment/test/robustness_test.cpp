@@ -29,16 +29,15 @@ TEST(Robustness, ChangesOneParameterAtATime) {
   EXPECT_EQ(all[2].summary.returns, summary_of(same).returns);
 }
 
-TEST(Robustness, RefusesAValueBeforeAnyEpisode) {
-  int made = 0;
-  const auto refused = [&](const std::string& key, const std::string& value) {
-    if (++made == 4) throw InvalidInput("too large");
+TEST(Robustness, LeavesOutWhatIsBeyondTheBoundsOfAnOption) {
+  const auto bounded = [](const std::string& key, const std::string& value) {
+    if (std::stod(value) > 1.2) throw InvalidInput("too large");
     return line_with(key, value);
   };
-  const Learned none{std::make_shared<fake::LinePolicy>(), Vector()};  // which no episode takes
-  const auto said = fake::message_of<InvalidInput>(
-      [&] { robustness(refused, line_with("noise", "0.01"), none, {.episodes = 10}, serial_evaluator()); });
-  EXPECT_EQ(said, "too large");
+  const Learned policy{std::make_shared<fake::LinePolicy>(), Vector{{-2, 0}}};
+  const auto all = robustness(bounded, line_with("noise", "0.01"), policy, {.episodes = 1}, serial_evaluator());
+  ASSERT_EQ(all.size(), kFactors.size() - 1);
+  EXPECT_EQ(all.back().factor, 1.125);
 }
 
 TEST(Robustness, IsATable) {

@@ -32,6 +32,14 @@ TEST(ExperimentFiles, AreReplacedAndTheirTemporariesAreNeverWrittenThrough) {
   EXPECT_FALSE(fs::exists(folder / "table.csv.tmp"));
 }
 
+TEST(ExperimentFiles, KeepTheirPermissions) {
+  const fs::path file = test_folder() / "page.html";
+  write_shared_file(file, "one");
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  write_shared_file(file, "two");
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
 TEST(ExperimentFiles, ALinkInThePlaceOfAFileIsReplaced) {
   const fs::path folder = test_folder(), file = folder / "table.csv", victim = folder / "victim";
   write_file(victim, "whole");

@@ -20,6 +20,14 @@ TEST(Rounded, KeepsWholeNumbersAndSoManyDigitsOfOthers) {
             Json::parse(R"({"a": [0.123457, "0.123456789"]})"));
 }
 
+TEST(Columns, HaveTextsWhereTheTableDoes) {
+  const files::Table table{{"note", "limit"}, {{"1", "2"}}};
+  Problems problems;
+  EXPECT_EQ(columns(table, "trajectory.csv", problems), Json::parse(R"({"note": [1], "limit": [2]})"))
+      << "states may have such names";
+  EXPECT_EQ(columns(table, "notes.csv", problems, "note"), Json::parse(R"({"note": ["1"], "limit": [2]})"));
+}
+
 TEST_F(Files, WhatIsNoNumberOrNoMotionIsNamed) {
   write_run(folder_);
   write(folder_ / "trials.csv", "trial,interaction_s,return\n1,2.5,0.1\n2,5,7.0x3\n");

@@ -135,8 +135,9 @@ TEST(RobotFunctions, HaveNoSubsteps) {
 TEST(RobotFunctions, ThoseOfAnotherProgramAreMissed) {
   const std::string lines = complaint(kFile, {});
   EXPECT_NE(lines.find("'robot' is a function"), std::string::npos) << lines;
-  EXPECT_NE(lines.find("line 24: 'push' is a function of the program that wrote this file, and this one has none"),
-            std::string::npos)
+  EXPECT_NE(
+      lines.find("line 24: 'push' is a function of the program that wrote this file, and no file keeps functions"),
+      std::string::npos)
       << lines;
   Functions half = functions();
   half.of_steps.erase("near");

@@ -32,9 +32,10 @@ TEST(Hints, NameTheEncoderWithoutAZero) {
   ASSERT_FALSE(hints.empty());
   EXPECT_EQ(hints[0].states, std::vector<Index>{1});
   EXPECT_LT(hints[0].errors, 0.7);
-  EXPECT_EQ(line_of({.states = {1, 0}, .errors = 0.5}, swinging_task()),
-            "the zero of q and of dq seems to be off (--set zeros=q,dq): short forecasts would have 0.50 times the "
-            "errors");
+  EXPECT_EQ(
+      line_of({.states = {1, 0}, .errors = 0.5}, swinging_task()),
+      "the zero of q and of dq seems to be off (zeros=q,dq of `identify`): short forecasts would have 0.50 times the "
+      "errors");
 }
 
 TEST(Hints, NameTheDelay) {
@@ -45,14 +46,15 @@ TEST(Hints, NameTheDelay) {
     EXPECT_NEAR(hints[0].delay_s, 0.02 * static_cast<double>(delay), 0.021);
   }
   EXPECT_EQ(line_of({.delay_s = -0.06, .errors = 0.25}, swinging_task()),
-            "actions seem to act 0.06 s earlier than their rows say (--set read.action_delay_s): short forecasts would "
+            "actions seem to act 0.06 s earlier than their rows say (read.action_delay_s of `identify`): short "
+            "forecasts would "
             "have 0.25 times the errors");
 }
 
 TEST(Hints, OfADelayNameWhatLearnersKnowItBy) {
   EXPECT_EQ(line_of({.delay_s = 0.06, .errors = 0.25}, swinging_task()),
-            "actions seem to act 0.06 s later than their rows say (--set read.action_delay_s; to learn, delay_s of the "
-            "action): short forecasts would have 0.25 times the errors");
+            "actions seem to act 0.06 s later than their rows say (read.action_delay_s of `identify`; to learn, "
+            "delay_s of the action): short forecasts would have 0.25 times the errors");
 }
 
 TEST(Hints, NameTheActionOfTheOtherSign) {

@@ -78,11 +78,11 @@ TEST(Study, SaysThatAnEncoderHasNoZero) {
   const Study study = swings.run();
   ASSERT_FALSE(study.hints.empty());
   const std::string line = line_of(study.hints[0], swings.task);
-  EXPECT_NE(line.find("--set zeros=q"), std::string::npos) << line;
+  EXPECT_NE(line.find("zeros=q of `identify`"), std::string::npos) << line;
   EXPECT_EQ(summary(study, swings.problem())[0].notes.back(), line);
   bool in_tables = false;
   for (const auto& [name, text] : csv_files(study, swings.problem()))
-    in_tables |= name == "warnings.csv" && text.find("--set zeros=q") != std::string::npos;
+    in_tables |= name == "warnings.csv" && text.find("zeros=q of `identify`") != std::string::npos;
   EXPECT_TRUE(in_tables);
 }
 
