@@ -31,6 +31,14 @@ struct IdentifyEntry {
   void fields(FieldVisitor& v) { options.fields(v); }
 };
 
+/// Options that every run has, whatever its scenario and learner.
+struct RunEntry {
+  experiment::Spec spec;
+  static std::string name() { return "run"; }
+  static std::string summary() { return "what every run has, whatever its scenario and learner"; }
+  void fields(FieldVisitor& v) { spec.settable_fields(v); }
+};
+
 template <class Builder>
 std::vector<Field> options_of(Builder& builder) {
   return describe_fields([&](FieldVisitor& v) { builder.fields(v); });
@@ -59,6 +67,7 @@ Json described(Builder& builder) {
 Json as_json(scenario::ScenarioBuilder& builder) {
   Json entry = described(builder);
   entry["priors"] = builder.prior_names();
+  entry["oracle"] = static_cast<bool>(builder.build().oracle);
   return entry;
 }
 
@@ -74,7 +83,9 @@ Json as_json(learners::LearnerBuilder& builder) {
 Json as_json(IdentifyEntry& entry) { return described(entry); }
 
 Json as_json(const experiment::Catalogue& catalogue) {
-  Json all = {{"scenarios", Json::array()},
+  RunEntry run;
+  Json all = {{"run", described(run)},
+              {"scenarios", Json::array()},
               {"learners", Json::array()},
               {"presets", Json::array()},
               {"not_built", Json::array()}};
@@ -112,12 +123,10 @@ std::string remark_of(const scenario::ScenarioBuilder& builder) {
   return fmt::format("priors: {}{}", fmt::join(builder.prior_names(), ", "), oracle);
 }
 
-/// Options that every run has, whatever its scenario and learner.
 void print_run_options() {
-  experiment::Spec spec;
+  RunEntry run;
   put("\nRuns\n");
-  for (const auto& [name, text] : list_fields([&](FieldVisitor& v) { spec.settable_fields(v); }))
-    put("  {:<18}   {} = {}\n", "", name, text);
+  for (const Field& field : options_of(run)) put("  {:<18}   {} = {}\n", "", field.name, field.value);
 }
 
 void print(const experiment::Catalogue& catalogue, bool with_options) {

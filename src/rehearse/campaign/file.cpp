@@ -37,7 +37,7 @@ class CampaignReader {
     const toml::node* format = reader_.take("format");
     if (!format)
       violations_.add(0, fmt::format("format is missing; write format = {}", kFormat));
-    else if (format->value<std::int64_t>() != kFormat)
+    else if (format->value_exact<std::int64_t>() != kFormat)
       reader_.wrong("format", fmt::format("this version of Rehearse reads format = {}", kFormat));
   }
 

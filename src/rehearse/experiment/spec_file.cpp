@@ -85,7 +85,7 @@ std::string section(const Spec& spec, std::string_view name, const Comments& com
 void check_format(const toml::table& file, const std::string& source) {
   if (!file.contains("format") || !file["run"].is_table())
     throw InvalidInput(fmt::format("{}: not a spec: it needs `format` and [run]", source));
-  const std::int64_t format = file["format"].value_or(std::int64_t{0});
+  const std::int64_t format = file["format"].value_exact<std::int64_t>().value_or(0);
   if (format != kSpecFormat)
     throw InvalidInput(fmt::format("{}: format {} is that of another version of Rehearse, this one reads {}", source,
                                    format, kSpecFormat));

@@ -47,7 +47,7 @@ class Reader {
  private:
   void read_head() {
     const toml::node* format = file_.reader().take("format");
-    if (!format || format->value<std::int64_t>() != kFormat)
+    if (!format || format->value_exact<std::int64_t>() != kFormat)
       violations_.add(
           format ? files::line_of(*format) : 0,
           format ? fmt::format("format must be {}", kFormat) : fmt::format("a robot begins with format = {}", kFormat));
@@ -70,7 +70,7 @@ class Reader {
       Table table(*part, "[[action]]", violations_);
       ActionVariable action;
       table.name(action.name, names_, "an action needs a name");
-      table.reader().take("unit", action.unit);
+      table.unit(action.unit);
       if (!table.interval("bounds", action.bounds)) table.wrong("bounds", "an action needs bounds = [low, high]");
       read_actuation(table, action.actuation);
       table.finish();

@@ -98,7 +98,7 @@ class DynamicsReader {
       if (const toml::table* with_unit = node->as_table()) {
         Table entry(*with_unit, name, violations_);
         if (!entry.number("value", value)) entry.wrong("value", fmt::format("parameter {} needs a value", name));
-        entry.reader().take("unit", unit);
+        entry.unit(unit);
         if (is_model) moved_.push_back(moved_by(entry, {.name = name, .unit = unit, .value = value}, violations_));
         entry.finish();
       } else if (is_model) {

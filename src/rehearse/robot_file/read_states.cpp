@@ -12,7 +12,7 @@ State read_state(Table& table, expression::Formulas& names) {
   State state;
   bool angle = false, input = true;
   table.name(state.variable.name, names, "a state needs a name");
-  table.reader().take("unit", state.variable.unit);
+  table.unit(state.variable.unit);
   table.reader().take_fields([&](FieldVisitor& v) {
     v.boolean("angle", angle, "");
     v.boolean("input", input, "");

@@ -1,6 +1,7 @@
 #include "rehearse/robot_file/table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -68,6 +69,14 @@ void Table::name(std::string& name, expression::Formulas& taken, const char* non
   } catch (const InvalidInput& error) {
     wrong("name", error.what());
   }
+}
+
+void Table::unit(std::string& unit) {
+  std::string given;
+  if (!reader_.take("unit", given)) return;
+  const auto spoils = [](unsigned char c) { return std::iscntrl(c) != 0 || c == '[' || c == ']'; };
+  if (std::ranges::any_of(given, spoils)) return wrong("unit", "unit must have no brackets and no control characters");
+  unit = given;
 }
 
 bool Table::number(const std::string& key, double& value, Bound bound) {

@@ -24,6 +24,7 @@ class Table {
   std::vector<Formula> formulas(const std::string& key);  // a list of them, or one
   Definitions definitions(const std::string& key);        // a table of them
   void name(std::string& name, expression::Formulas& taken, const char* none);  // that formulas can use
+  void unit(std::string& unit);                                                 // that headers of tables can have
   bool number(const std::string& key, double& value, Bound bound = {});
   bool interval(const std::string& key, Interval& value);
 

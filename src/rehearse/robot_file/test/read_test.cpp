@@ -53,6 +53,7 @@ TEST_P(WrongRobot, IsRefusedWithItsLine) {
 
 const Wrong kWrong[] = {
     {"format = 1", "format = 2", "line 1: format must be 1"},
+    {"format = 1", "format = true", "line 1: format must be 1"},
     {"name = \"swing\"", "name = \"my swing\"", "line 2: name = 'my swing', must be of letters"},
     {"name = \"swing\"", "nmae = \"swing\"", "line 2: unknown key 'nmae', did you mean 'name'?"},
     {"[define]", "[[limit]]\nname = \"a\"\n[define]", "line 21: a limit needs keep = \"…\""},
@@ -82,6 +83,8 @@ const Wrong kWrong[] = {
     {"bounds = [-2, 2]", "bounds = 2", "bounds must be [low, high]"},
     {"bounds = [-2, 2]", "", "an action needs bounds = [low, high]"},
     {"bounds = [-2, 2]", "bounds = [-inf, inf]", "line 19: bounds = [-inf, inf], must be finite"},
+    {"unit = \"N m\"", "unit = \"N\\nm\"", "line 18: unit must have no brackets"},
+    {"unit = \"N m\"", "unit = \"[N]\"", "line 18: unit must have no brackets"},
     {"unit = \"N m\"", "max_rate = 0", "line 18: max_rate = 0, must be > 0"},
     {"unit = \"N m\"", "filter_s = -1", "line 18: filter_s = -1, must be ≥ 0"},
     {"unit = \"N m\"", "delay_s = 11", "line 18: delay_s = 11, must be between 0 and 10"},
