@@ -44,6 +44,7 @@ Driven drive(system::Plant& plant, const Task& task, const Sample& sample, const
       const Vector actions = policy::random_schedule(task, policy::RandomActions::uniform, 0, key);
       driven.episodes.push_back(rollout::execute(plant, *schedule, actions, task, Rng(key), before_step));
     }
+    plant.require_finished();
   } catch (const std::exception& error) {
     const std::string why = error.what();
     driven.failed = fmt::format("failed in step {} of episode {}: {}", step, driven.episodes.size() + 1,

@@ -33,6 +33,7 @@ std::optional<double> expected_return(const Resolved& resolved, const TrialRecor
     if (!plant) plant = scenario.make_plant();
     returns(i) = return_of_episode(resolved, *plant, *policy, trial, i, evaluator);
   }
+  plant->require_finished();
   return returns(0) + (returns.array() - returns(0)).mean();  // of equal returns exactly that
 }
 

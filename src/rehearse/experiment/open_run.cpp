@@ -8,7 +8,7 @@
 #include "rehearse/experiment/motion.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/experiment/trial_record.hpp"
-#include "rehearse/recording/rates.hpp"
+#include "rehearse/recording/driven.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/rollout/simulate.hpp"
 
@@ -140,6 +140,10 @@ const learners::Proposal& OpenRun::propose() {
   const learners::Proposal& proposal = ask(trial, history_.asked ? &*history_.asked : nullptr);
   proposal_ = &proposal;
   if (history_.asked) return proposal;
+  if (proposal.rollouts > 0 && proposal.failed_rollouts == proposal.rollouts)
+    throw RunFailed(
+        fmt::format("trial {}: every rollout failed, {} of them: {}. No policy was simulated that could move the robot",
+                    trial, proposal.rollouts, why_rollouts_failed(proposal)));
   if (proposal.model) predict(trial, proposal);
   if (proposal.archive) folder_.write_archive(*proposal.archive);
   history_.asked = record_before(trial, proposal, parts_.resolved());
@@ -196,9 +200,8 @@ void OpenRun::record(const Episode& episode, const std::string& file_checksum, c
 }
 
 void OpenRun::conclude(const Episode& episode) {
-  const Index T = episode.steps();
-  record(episode, "",
-         recording::notes_on_rates(parts_.task(), episode.states.topRows(T), episode.states.bottomRows(T)));
+  const std::string file = RunFolder::trajectory_of(history_.done() + 1).string();
+  record(episode, "", recording::notes_on_driven(parts_.task(), episode.states, file));
   publish();
   announce();
   evaluate_last();

@@ -65,6 +65,10 @@ class Robot {
                             ask);
   }
 
+  void require_finished() {
+    if (plant_) plant_->require_finished();
+  }
+
  private:
   std::unique_ptr<system::Plant> plant_;
   const prior::Prior* stand_in_;
@@ -112,6 +116,7 @@ std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, 
         const Rng rng(stream_of(plan, learned, i));
         return outcome_of(robot.episode(learned, longer, rng, ask), scenario.task);
       });
+    named_failure(learned.trial, "plant of the evaluation", [&] { robot.require_finished(); });
   });
   return outcomes;
 }

@@ -51,6 +51,7 @@ class Run {
     while (!complete()) {
       run_.conclude(execute(run_.propose()));
       folder_.remove_next();
+      require_finished();
     }
     if (parts_.resolved().spec.trials > 0) folder_.mark_done(run_.history().done());
     return result();
@@ -69,6 +70,11 @@ class Run {
                               [&] { parts_.evaluator().stop_if_asked(); });
     };
     return named_failure(trial, "plant", play, parts_.resolved().scenario.faults != nullptr);
+  }
+
+  /// After the trial is kept: its torque may still be on.
+  void require_finished() const {
+    named_failure(run_.history().done(), "plant", [&] { parts_.plant().require_finished(); });
   }
 
   RunResult result() const {

@@ -161,9 +161,11 @@ void RunFolder::write_prediction(Index trial, const std::string& csv) const {
   files::write_file(trial_file(path_ / "predictions", trial), csv);
 }
 
+fs::path RunFolder::trajectory_of(Index trial) { return trial_file("trajectories", trial); }
+
 void RunFolder::write_trajectory(Index trial, const std::string& csv) const {
   fs::create_directories(path_ / "trajectories");
-  files::write_file(trial_file(path_ / "trajectories", trial), csv);
+  files::write_file(path_ / trajectory_of(trial), csv);
 }
 
 void RunFolder::write_log(Index log, const std::string& csv) const {
@@ -202,7 +204,7 @@ void RunFolder::remove_learners_table(const learners::Table& table) const { fs::
 
 void RunFolder::remove_after(const History& history) const {
   const Index trial = history.done() + 1, foreseen = history.asked ? trial + 1 : trial;
-  fs::remove(trial_file(path_ / "trajectories", trial));
+  fs::remove(path_ / trajectory_of(trial));
   fs::remove(motion_file(path_, "trial", trial));
   fs::remove(trial_file(path_ / "predictions", foreseen));
   fs::remove(motion_file(path_, "prediction", foreseen));

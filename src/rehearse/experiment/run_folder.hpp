@@ -58,6 +58,7 @@ class RunFolder {
 
   /// Files about a trial: what the model expected, and what happened.
   void write_prediction(Index trial, const std::string& csv) const;
+  static std::filesystem::path trajectory_of(Index trial);  // its file, in the folder
   void write_trajectory(Index trial, const std::string& csv) const;
 
   /// A log that was told before the first trial, from 1.

@@ -29,6 +29,16 @@ double unsteadiness(const ConstVectorView& x) {
   return statistics::median({bends.begin(), bends.end()});
 }
 
+constexpr const char* kAnotherUnit =
+    ": is that another unit? Then `tell --undo` (in Python `take_back()`) takes the file back";
+
+/// True where not even a start that is a sign or a decimal off is so far away.
+bool is_of_another_unit(double away, double mean, double std) {
+  constexpr double kFar = 30;
+  const double usual = std::max(std::abs(mean), 6 * std);
+  return usual > 0 && std::abs(away) > kFar * usual;
+}
+
 /// A sentence for each state that begins far from the task's start: by a tenth of its range in the episode, and by more
 /// than the start varies, the state is noisy, and digits that are left out make.
 std::vector<std::string> sentences_on_start(const Episode& episode, const Task& task) {
@@ -42,8 +52,9 @@ std::vector<std::string> sentences_on_start(const Episode& episode, const Task& 
     const double usual =
         std::max({0.1 * range, 6 * task.start_std(i), 4 * unsteadiness(x), 0.01 * std::abs(mean), kRounding});
     if (std::abs(away) > usual)
-      sentences.push_back(fmt::format("starts at {} = {:.3g}{}, the task at {:.3g}{}", state.name, x(0),
-                                      unit_text(state.unit), mean, unit_text(state.unit)));
+      sentences.push_back(fmt::format("starts at {} = {:.3g}{}, the task at {:.3g}{}{}", state.name, x(0),
+                                      unit_text(state.unit), mean, unit_text(state.unit),
+                                      is_of_another_unit(away, mean, task.start_std(i)) ? kAnotherUnit : ""));
   }
   return sentences;
 }

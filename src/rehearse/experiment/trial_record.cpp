@@ -49,6 +49,11 @@ std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& p
 
 }  // namespace
 
+std::string why_rollouts_failed(const learners::Proposal& proposal) {
+  return proposal.failed_row.empty() ? "the model's predictions were not finite"
+                                     : "the prior fails " + proposal.failed_row;
+}
+
 TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved) {
   TrialRecord record{.trial = trial,
                      .predicted_return = proposal.predicted_return,
@@ -68,8 +73,7 @@ TrialRecord record_before(Index trial, const learners::Proposal& proposal, const
                     proposal.left_out_rows));
   if (10 * proposal.failed_rollouts > proposal.rollouts)
     record.notes.push_back(fmt::format("{} of {} rollouts failed: {}", proposal.failed_rollouts, proposal.rollouts,
-                                       proposal.failed_row.empty() ? "the model's predictions were not finite"
-                                                                   : "the prior fails " + proposal.failed_row));
+                                       why_rollouts_failed(proposal)));
   if (proposal.posterior && !record.phi.empty())
     add_posterior(record, *proposal.posterior, tunable_names(resolved.prior));
   return record;

@@ -8,6 +8,9 @@
 
 namespace rehearse::experiment {
 
+/// Of a search some of whose rollouts failed.
+std::string why_rollouts_failed(const learners::Proposal& proposal);
+
 /// The record of a trial before it: the proposal.
 TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved);
 

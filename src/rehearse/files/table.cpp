@@ -90,9 +90,10 @@ Table read_csv(std::string_view text) {
   Table table{.header = reader.row()};
   while (!reader.at_end()) {
     table.rows.push_back(reader.row());
-    if (table.rows.back().size() != table.header.size())
-      throw InvalidInput(fmt::format("row {} has {} cells, the header has {}", reader.rows_read(),
-                                     table.rows.back().size(), table.header.size()));
+    const std::size_t cells = table.rows.back().size(), columns = table.header.size();
+    if (cells != columns)
+      throw InvalidInput(fmt::format("row {} has {} cells, the header has {}{}", reader.rows_read(), cells, columns,
+                                     cells > columns ? ": decimals need a point, columns a comma" : ""));
   }
   return table;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/episode_fit.hpp"
 #include "rehearse/core/name_list.hpp"
 #include "rehearse/core/names.hpp"
 #include "rehearse/core/options.hpp"
@@ -17,8 +18,7 @@
 namespace rehearse::recording {
 namespace {
 
-constexpr double kLargest = 1e12;  // of any number: beyond are codes of errors, and sums that overflow
-constexpr double kLatest = 1e19;   // of a time: nanoseconds since 1970
+constexpr double kLatest = 1e19;  // of a time: nanoseconds since 1970
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
@@ -169,7 +169,7 @@ class Finder {
     return trimmed(table_.rows[row][static_cast<std::size_t>(column)]).empty();
   }
 
-  std::optional<double> number(std::size_t row, int column, const std::string& name, double largest = kLargest) {
+  std::optional<double> number(std::size_t row, int column, const std::string& name, double largest = kLargestGiven) {
     if (is_empty(row, column)) return std::nullopt;
     const std::string cell = trimmed(table_.rows[row][static_cast<std::size_t>(column)]);
     double value = 0;

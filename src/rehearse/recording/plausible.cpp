@@ -133,6 +133,13 @@ void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::v
                     action.name, clipped));
 }
 
+std::vector<const Channel*> rates_of(const std::vector<Channel>& states, const Task& task) {
+  std::vector<const Channel*> rates(states.size(), nullptr);
+  for (const Kinematics::Pair& pair : task.kinematics().pairs)
+    rates[static_cast<std::size_t>(pair.position)] = &states[static_cast<std::size_t>(pair.rate)];
+  return rates;
+}
+
 void check_jumps(const Channel& state, const Channel* rate, Problems& problems) {
   const auto [beyond, allowed] = changes_of(state, rate);
   if (beyond.size() < 8) return;
@@ -147,6 +154,11 @@ void check_jumps(const Channel& state, const Channel* rate, Problems& problems) 
         fmt::format("{} jumps from {:.6g} to {:.6g}{} in {:.6g} s, by more than the {:.3g} that are plausible",
                     state.name, before.value, after.value, unit_text(state.unit), after.time_s - before.time_s, bound));
   }
+}
+
+void check_jumps(const std::vector<Channel>& states, const Task& task, Problems& problems) {
+  const std::vector<const Channel*> rates = rates_of(states, task);
+  for (std::size_t s = 0; s < states.size(); ++s) check_jumps(states[s], rates[s], problems);
 }
 
 void compare_with_rate(const Channel& state, const Channel& rate, double dt_s, std::vector<std::string>& notes) {

@@ -14,8 +14,7 @@ void Problems::add(Index row, const std::string& kind, const std::string& messag
   if (rows.empty() || rows.back() != row) rows.push_back(row);
 }
 
-void Problems::throw_if_any() const {
-  if (empty()) return;
+std::vector<std::string> Problems::lines() const {
   std::vector<First> in_order;
   for (const auto& [kind, first] : found_) in_order.push_back(first);
   std::ranges::stable_sort(in_order, {}, &First::row);
@@ -28,7 +27,11 @@ void Problems::throw_if_any() const {
     const std::string others = more > 0 ? fmt::format(" (and so in {} more row{})", more, more == 1 ? "" : "s") : "";
     lines.push_back(fmt::format("{}: {}{}", where, first.message, others));
   }
-  throw InvalidInput(lines);
+  return lines;
+}
+
+void Problems::throw_if_any() const {
+  if (!empty()) throw InvalidInput(lines());
 }
 
 }  // namespace rehearse::recording

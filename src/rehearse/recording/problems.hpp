@@ -19,7 +19,10 @@ class Problems {
   void add(Index row, const std::string& kind, const std::string& message);
   bool empty() const { return found_.empty(); }
 
-  /// InvalidInput, in the order of the rows.
+  /// A line a kind, in the order of the rows.
+  std::vector<std::string> lines() const;
+
+  /// InvalidInput with these.
   void throw_if_any() const;
 
  private:

@@ -1,11 +1,83 @@
 #include "rehearse/recording/rates.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace rehearse::recording {
+namespace {
+
+/// Sums of n neighbours each; what is left at the end is left out.
+Vector sums_of(const Vector& values, Index n) {
+  return values.head(values.size() / n * n).reshaped(n, values.size() / n).colwise().sum().transpose();
+}
+
+/// The mean square of changes from one number to the next, which is what noise makes large and motion small.
+double roughness(const Vector& values) {
+  const Index n = values.size() - 1;
+  return n < 1 ? INFINITY : (values.tail(n) - values.head(n)).squaredNorm() / static_cast<double>(n);
+}
+
+/// A state's changes and those that its rate says, over parts of an episode that are so long that noise matters little.
+struct Parts {
+  Vector expected, changes;
+  bool expected_moves, state_moves;  // by much more than noise makes of states at rest
+
+  Parts(const Vector& all_expected, const Vector& all_changes) {
+    constexpr Index kParts = 25;
+    constexpr double kClear = 10;  // times the mean square that noise makes
+    const Index length = std::max<Index>(1, all_changes.size() / kParts);
+    expected = sums_of(all_expected, length), changes = sums_of(all_changes, length);
+    const auto moves = [&](const Vector& sums, double noise) {
+      return sums.squaredNorm() > kClear * noise * static_cast<double>(sums.size());
+    };
+    // Noise of states cancels in sums of changes but at both ends, that of rates adds up.
+    expected_moves = moves(expected, 2 * roughness(all_expected) * static_cast<double>(length));
+    state_moves = moves(changes, roughness(all_changes) / 3);
+  }
+};
+
+/// How many of the changes, one after the other, are 0 while the rate says clearly more than usual ones; 0: none.
+Index stands_still(const Vector& expected, const Vector& changes) {
+  constexpr Index kFewest = 10;
+  constexpr double kClear = 2;  // of the largest change: a slow sensor catches up
+  const double clear = kClear * changes.cwiseAbs().maxCoeff();
+  Index longest = 0, length = 0;
+  double expected_since = 0;
+  for (Index i = 0; i < changes.size(); ++i) {
+    length = changes(i) == 0 ? length + 1 : 0;
+    expected_since = changes(i) == 0 ? expected_since + expected(i) : 0;
+    if (length >= kFewest && std::abs(expected_since) > clear) longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+/// What a factor does not say: a column that is no measurement, or another one.
+std::string note_on_unrelated(const std::string& state, const std::string& rate, const Vector& expected,
+                              const Vector& changes) {
+  constexpr double kUnrelated = 0.25;
+  const Parts parts(expected, changes);
+  if (changes.isZero(0))
+    return parts.expected_moves ? fmt::format("{} is the same in all rows, while {} says that it changes", state, rate)
+                                : "";
+  if (expected.isZero(0))
+    return parts.state_moves ? fmt::format("{} is 0 in all rows, while {} changes", rate, state) : "";
+  if (const Index still = stands_still(expected, changes); still > 0)
+    return fmt::format("{} stands still for {} steps, while {} says that it changes: is its sensor disturbed?", state,
+                       still, rate);
+  const double both = parts.expected.dot(parts.changes);
+  const double explained = both * both / (parts.expected.squaredNorm() * parts.changes.squaredNorm());
+  if (!parts.expected_moves || !parts.state_moves || explained > kUnrelated) return "";
+  return fmt::format("{} does not change as {} says, by no factor: is one of the columns another quantity?", state,
+                     rate);
+}
+
+}  // namespace
 
 std::string note_on_rate(const std::string& state, const std::string& rate, const Vector& expected,
                          const Vector& changes) {
+  if (std::string note = note_on_unrelated(state, rate, expected, changes); !note.empty()) return note;
   const double xx = expected.squaredNorm(), xy = expected.dot(changes), yy = changes.squaredNorm();
   const double explained = xy * xy / (xx * yy);                                    // NaN where one never changes
   const Interval usual = explained > 0.9 ? Interval{0.7, 1.4} : Interval{0.5, 2};  // noisy rates look too fast

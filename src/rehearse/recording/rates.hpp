@@ -8,8 +8,9 @@
 
 namespace rehearse::recording {
 
-/// A sentence if a state does not change as its rate says: a wrong unit, scale or sign; else empty. expected: changes
-/// by the rate. Where these explain the changes well, they may differ by less than those of a noisy rate.
+/// A sentence if a state does not change as its rate says: a wrong unit, scale or sign, a sensor that stands still, or
+/// a column of something else; else empty. expected: changes by the rate. Where these explain the changes well, they
+/// may differ by less than those of a noisy rate.
 std::string note_on_rate(const std::string& state, const std::string& rate, const Vector& expected,
                          const Vector& changes);
 

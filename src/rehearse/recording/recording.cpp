@@ -72,11 +72,9 @@ void unwrap_angles(std::vector<Channel>& channels, const Task& task, std::vector
 void check_channels(Channels& channels, const Task& task, Problems& problems, std::vector<std::string>& notes) {
   unwrap_angles(channels.states, task, notes);
   unwrap_angles(channels.truths, task, notes);
-  std::vector<const Channel*> rates(channels.states.size(), nullptr);
-  for (const Kinematics::Pair& pair : task.kinematics().pairs)
-    rates[static_cast<std::size_t>(pair.position)] = &channels.states[static_cast<std::size_t>(pair.rate)];
+  check_jumps(channels.states, task, problems);
+  const std::vector<const Channel*> rates = rates_of(channels.states, task);
   for (std::size_t s = 0; s < rates.size(); ++s) {
-    check_jumps(channels.states[s], rates[s], problems);
     if (rates[s]) compare_with_rate(channels.states[s], *rates[s], task.dt_s, notes);
     if (task.states[s].kind == StateKind::angle) look_for_turns(channels.states[s], notes);
   }

@@ -18,10 +18,12 @@ Vector checked(Vector state, const Task& task, Index step) {
   if (state.size() != task.state_size())
     throw std::runtime_error(fmt::format("the plant's state at step {} has {} entries, must have {}", step,
                                          state.size(), task.state_size()));
-  for (Index i = 0; i < state.size(); ++i)
-    if (!std::isfinite(state(i)))
-      throw std::runtime_error(fmt::format("the plant's state at step {} has {} = {}, must be finite", step,
-                                           task.states[static_cast<std::size_t>(i)].name, state(i)));
+  for (Index i = 0; i < state.size(); ++i) {
+    if (std::abs(state(i)) <= kLargestGiven) continue;
+    const std::string bound = std::isfinite(state(i)) ? fmt::format("within ±{:g}", kLargestGiven) : "finite";
+    throw std::runtime_error(fmt::format("the plant's state at step {} has {} = {}, must be {}", step,
+                                         task.states[static_cast<std::size_t>(i)].name, state(i), bound));
+  }
   return state;
 }
 

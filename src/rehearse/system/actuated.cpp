@@ -50,6 +50,7 @@ class ActuatedPlant final : public Plant {
 
   bool ended() const override { return robot_->ended(); }
   void finish() noexcept override { robot_->finish(); }
+  void require_finished() override { robot_->require_finished(); }
   Vector truth() const override { return with_memory(robot_->truth()); }
 
  private:

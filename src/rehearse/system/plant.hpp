@@ -24,6 +24,9 @@ class Plant {
   /// The end of an episode, whatever ended it: nothing is to move the robot until the next reset.
   virtual void finish() noexcept {}
 
+  /// Throws std::exception where the end of the last episode went wrong, as the next reset does.
+  virtual void require_finished() {}
+
   /// The noise-free state where it is known, else an empty vector.
   virtual Vector truth() const { return {}; }
 };

@@ -67,11 +67,7 @@ class EpisodePlant final : public Plant {
       : program_(program), phi_(std::move(phi)), around_(std::move(around)), conversation_(std::move(conversation)) {}
 
   Vector reset(Rng& rng) override {
-    if (!not_ended_.empty())
-      throw Unavailable(
-          fmt::format("the message \"end\" of the last episode, at which the robot's torque is taken off, was not "
-                      "answered well: {}",
-                      std::exchange(not_ended_, {})));
+    require_finished();
     const Vector start = around_.start(rng);
     const auto seed = static_cast<std::uint64_t>(rng.uniform() * 0x1p53);
     rng_ = rng;
@@ -92,6 +88,14 @@ class EpisodePlant final : public Plant {
     not_ended(error.what());
   } catch (...) {
     not_ended("it is not known why");
+  }
+
+  void require_finished() override {
+    if (not_ended_.empty()) return;
+    throw Unavailable(
+        fmt::format("the message \"end\" of the last episode, at which the robot's torque is taken off, was not "
+                    "answered well: {}",
+                    std::exchange(not_ended_, {})));
   }
 
   Vector truth() const override { return truth_; }
@@ -121,7 +125,7 @@ class EpisodePlant final : public Plant {
   Vector phi_;
   StartAndSensors around_;
   std::unique_ptr<Conversation> conversation_;  // null: the last one failed
-  std::string not_ended_;                       // why the last episode's end was not answered well, for the next reset
+  std::string not_ended_;                       // why the last episode's end was not answered well
   std::optional<Rng> rng_;
   Vector truth_;
 };

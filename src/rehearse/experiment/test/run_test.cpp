@@ -63,6 +63,57 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
   EXPECT_TRUE(fs::exists(folder / "done"));
 }
 
+/// A cart whose brake does not engage after the last episode.
+class Brakeless final : public system::Plant {
+ public:
+  explicit Brakeless(std::unique_ptr<system::Plant> cart) : cart_(std::move(cart)) {}
+  Vector reset(Rng& rng) override { return cart_->reset(rng); }
+  Vector step(const Vector& u) override { return cart_->step(u); }
+  void require_finished() override {
+    if (++finished_ == 2) throw system::Unavailable("the brake did not engage");
+  }
+
+ private:
+  std::unique_ptr<system::Plant> cart_;
+  int finished_ = 0;
+};
+
+TEST(Run, ARobotThatDidNotFinishItsLastEpisodeEndsTheRunAndTheTrialIsKept) {
+  const auto brakeless = [](const fake::MakePlant& make) -> fake::MakePlant {
+    return [make] { return std::make_unique<Brakeless>(make()); };
+  };
+  const fs::path folder = fake::test_folder() / "run";
+  EXPECT_EQ(fake::message_of<RunFailed>([&] { start_run(fake::catalogue_with(brakeless), line_spec(2), folder, {}); }),
+            "trial 2: the plant failed: the brake did not engage");
+  EXPECT_EQ(lines_of(folder / "trials.csv").size(), 3u);
+  EXPECT_EQ(resume_run(fake::catalogue(), folder, {}, {}).trials, 2);
+}
+
+/// A learner all of whose rollouts fail.
+class Lost final : public fake::Wrapped {
+ public:
+  using Wrapped::Wrapped;
+  const learners::Proposal& ask() override {
+    proposal_ = Wrapped::ask();
+    proposal_.failed_rollouts = proposal_.rollouts;
+    proposal_.failed_row = "in x = 1e+30";
+    return proposal_;
+  }
+
+ private:
+  learners::Proposal proposal_;
+};
+
+TEST(Run, APolicyThatWasNeverSimulatedMovesNoRobot) {
+  const Catalogue lost = fake::catalogue_of([](auto inner) { return std::make_unique<Lost>(std::move(inner)); });
+  const fs::path folder = fake::test_folder() / "run";
+  EXPECT_EQ(
+      fake::message_of<RunFailed>([&] { start_run(lost, line_spec(2), folder, {}); }),
+      "trial 1: every rollout failed, 100 of them: the prior fails in x = 1e+30. No policy was simulated that could "
+      "move the robot");
+  EXPECT_EQ(lines_of(folder / "trials.csv").size(), 1u);
+}
+
 /// A learner that keeps the episodes it is told.
 class Listener final : public fake::Wrapped {
  public:

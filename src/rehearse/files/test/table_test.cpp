@@ -47,7 +47,8 @@ TEST(Table, EveryTruncationIsNoticedOrLosesWholeRows) {
 
 TEST(Table, SaysWhatIsWrong) {
   EXPECT_EQ(complaint(""), "the table is empty");
-  EXPECT_EQ(complaint("a,b\n1,2\n1,2,3\n"), "row 3 has 3 cells, the header has 2");
+  EXPECT_EQ(complaint("a,b\n1,2\n1,2,3\n"),
+            "row 3 has 3 cells, the header has 2: decimals need a point, columns a comma");
   EXPECT_EQ(complaint("a,b\n1,2"), "row 2 is cut short");
   EXPECT_EQ(complaint("a,c\n1,2\n"), "there is no column b");
   EXPECT_EQ(complaint("a,b\n1,many\n"), "column b: 'many' is no number");

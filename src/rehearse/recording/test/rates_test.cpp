@@ -36,6 +36,45 @@ TEST(Rates, OtherUnitsAndSignsAreNoted) {
   EXPECT_EQ(notes(-1)[0].find("q changes -1.01 times as fast as dq says"), 0U) << notes(-1)[0];
 }
 
+TEST(Rates, ColumnsThatAreNoMeasurementOrAnotherOneAreNoted) {
+  Rng rng({.seed = 7});
+  constexpr Index kSteps = 240;
+  Matrix states(kSteps + 1, 2);
+  for (Index k = 0; k <= kSteps; ++k) {
+    const double t = kDt * static_cast<double>(k);
+    states.row(k) << std::sin(2 * t) + 1e-3 * rng.normal(), 2 * std::cos(2 * t) + 1e-2 * rng.normal();
+  }
+  const auto note = [&](const Matrix& of) {
+    const auto notes = notes_on_rates(swinging(), of.topRows(kSteps), of.bottomRows(kSteps));
+    return notes.empty() ? "" : notes.front();
+  };
+  EXPECT_EQ(note(states), "");
+  Matrix wrong = states;
+  wrong.col(0).setConstant(0.3);
+  EXPECT_EQ(note(wrong), "q is the same in all rows, while dq says that it changes");
+  wrong = states;
+  wrong.col(1).setZero();
+  EXPECT_EQ(note(wrong), "dq is 0 in all rows, while q changes");
+  wrong = states;
+  wrong.col(0).tail(100).setConstant(states(140, 0));
+  EXPECT_EQ(note(wrong).find("q stands still for "), 0U) << note(wrong);
+  wrong = states;
+  for (Index k = 0; k <= kSteps; ++k) wrong(k, 1) = std::sin(3.3 * kDt * static_cast<double>(k));
+  EXPECT_EQ(note(wrong), "q does not change as dq says, by no factor: is one of the columns another quantity?");
+}
+
+TEST(Rates, NoiseAtRestAndSlowSensorsAreNotNoted) {
+  Rng rng({.seed = 8});
+  Matrix rest(401, 2), slow(401, 2);
+  for (Index k = 0; k <= 400; ++k) {
+    const double t = kDt * static_cast<double>(k - k % 20);
+    rest.row(k) << 0.1 * rng.normal(), 3 * rng.normal();
+    slow.row(k) << std::sin(0.5 * t), 0.5 * std::cos(0.5 * kDt * static_cast<double>(k));
+  }
+  for (const Matrix& states : {rest, slow})
+    EXPECT_EQ(notes_on_rates(swinging(), states.topRows(400), states.bottomRows(400)), std::vector<std::string>{});
+}
+
 /// How late the rate of q = sin(5 t) seems to be, that is the mean of the last `differences` of readings (0: it is
 /// exact), where q is read in steps of `counts` and with noise.
 double lateness(Index differences, double counts = 0, double noise = 0) {

@@ -182,6 +182,7 @@ TEST(Execute, AStateThatIsNoStateIsAnError) {
             std::string::npos);
   EXPECT_NE(why(Vector{{std::numeric_limits<double>::infinity(), 0}}).find(" = inf, must be finite"),
             std::string::npos);
+  EXPECT_NE(why(Vector{{-1e30, 0}}).find(" = -1e+30, must be within ±1e+12"), std::string::npos);
 }
 
 TEST(Execute, ARewardThatIsNotFiniteEndsTheEpisodeAtTheFloor) {

@@ -1,0 +1,53 @@
+#include "rehearse/recording/driven.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace rehearse::recording {
+namespace {
+
+constexpr double kStep_s = 0.05;
+
+Task swinging_wheel() {
+  Task task;
+  task.states = {{"q", "rad", StateKind::angle, "dq"}, {"dq", "rad/s"}};
+  task.dt_s = kStep_s;
+  return task;
+}
+
+/// A pendulum that swings with an amplitude, as a robot whose encoder has one turn measures it.
+Matrix swings(double amplitude) {
+  Matrix states(41, 2);
+  for (Index k = 0; k <= 40; ++k) {
+    const double t = 3 * kStep_s * static_cast<double>(k);
+    const double q = amplitude * std::sin(t);
+    states.row(k) << std::remainder(q, 2 * std::numbers::pi), 3 * amplitude * std::cos(t);
+  }
+  return states;
+}
+
+TEST(Driven, MotionOfARobotIsNotNoted) {
+  for (const double amplitude : {0.0, 0.1, 4.0})
+    EXPECT_EQ(notes_on_driven(swinging_wheel(), swings(amplitude), "trial.csv"), std::vector<std::string>{})
+        << amplitude;
+}
+
+TEST(Driven, AnAnswerThatIsWrongOnceIsNoted) {
+  Matrix states = swings(0.1);
+  states(15, 1) = 30;
+  const auto notes = notes_on_driven(swinging_wheel(), states, "trial.csv");
+  ASSERT_FALSE(notes.empty());
+  EXPECT_TRUE(notes[0].starts_with("trial.csv: row 17: dq jumps from ")) << notes[0];
+}
+
+TEST(Driven, ASensorThatIsDeadIsNoted) {
+  Matrix states = swings(0.1);
+  states.col(0).setZero();
+  EXPECT_EQ(notes_on_driven(swinging_wheel(), states, ""),
+            std::vector<std::string>{"q is the same in all rows, while dq says that it changes"});
+}
+
+}  // namespace
+}  // namespace rehearse::recording
