@@ -195,7 +195,12 @@ TellResult tell_trial(Reopened& reopened, const std::vector<ToldFile>& files, co
 
 AskResult ask_run(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {
   Reopened reopened(catalogue, path, options);
-  reopened.attempt([&] { reopened.go_on(true, [](OpenRun& run) { run.propose(); }); });
+  const bool asked = reopened.run().history().asked.has_value();  // what is known of it stands in the folder
+  reopened.attempt([&] {
+    reopened.go_on(!asked, [&](OpenRun& run) {
+      if (!asked) run.propose();
+    });
+  });
   return {reopened.resolved(), *reopened.run().history().asked, path / kNextFolder};
 }
 

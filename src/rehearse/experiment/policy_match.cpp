@@ -75,6 +75,30 @@ std::vector<Reading> other_signs(const Episode& episode, const Task& task) {
   return readings;
 }
 
+/// Two states stand in each other's column.
+std::vector<Reading> exchanged(const Episode& episode, const Task& task) {
+  std::vector<Reading> readings;
+  for (Index s = 0, own = task.actuators().own_states(); s < own; ++s)
+    for (Index other = s + 1; other < own; ++other) {
+      const auto name = [&](Index i) { return task.states[static_cast<std::size_t>(i)].name; };
+      readings.push_back({fmt::format("{} and {} are exchanged", name(s), name(other)), episode});
+      readings.back().episode.states.col(s).swap(readings.back().episode.states.col(other));
+    }
+  return readings;
+}
+
+/// The policy begins some steps later, behind rows of a logger that was on before.
+std::vector<Reading> later_beginnings(const Episode& episode, const Task& task) {
+  constexpr Index kMost = 200;  // each costs an episode of actions
+  std::vector<Reading> readings;
+  const Index steps = episode.steps(), stride = std::max<Index>(1, steps / (2 * kMost));
+  for (Index before = stride; 2 * before <= steps; before += stride)
+    readings.push_back({fmt::format("it begins at {:.3g} s: the rows before are to be left out",
+                                    static_cast<double>(before) * task.dt_s),
+                        episode.part(before, steps - before)});
+  return readings;
+}
+
 /// The action of each row stands one row later.
 Reading a_row_late(const Episode& episode) {
   const Index steps = episode.steps() - 1;
@@ -109,7 +133,8 @@ std::string cause_of(const ReadEpisode& read, const scenario::Scenario& scenario
   for (const TrialRecord& trial : earlier)
     consider(episode, trial, fmt::format("they are those of the policy of trial {}", trial.trial));
   std::vector<Reading> readings = other_units(episode, task);
-  for (Reading& reading : other_signs(episode, task)) readings.push_back(std::move(reading));
+  for (const auto& of : {other_signs, exchanged, later_beginnings})
+    for (Reading& reading : of(episode, task)) readings.push_back(std::move(reading));
   if (episode.steps() > 1) readings.push_back(a_row_late(episode));
   for (const Reading& reading : readings)
     consider(reading.episode, asked, fmt::format("they are the policy's if {}", reading.cause));

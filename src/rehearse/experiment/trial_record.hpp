@@ -8,7 +8,7 @@
 
 namespace rehearse::experiment {
 
-/// Of a search some of whose rollouts failed.
+/// The reason why rollouts of a search failed; there must be some.
 std::string why_rollouts_failed(const learners::Proposal& proposal);
 
 /// The record of a trial before it: the proposal.

@@ -1,5 +1,5 @@
 #pragma once
-// What is unlikely in an episode that Rehearse drove. Files that are told are checked when they are read.
+// Checks of an episode that Rehearse drove. Files that are told are checked when they are read.
 
 #include <string>
 #include <vector>

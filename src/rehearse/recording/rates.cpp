@@ -53,7 +53,7 @@ Index stands_still(const Vector& expected, const Vector& changes) {
   return longest;
 }
 
-/// What a factor does not say: a column that is no measurement, or another one.
+/// A column that is no measurement, or another one, which shows in no factor.
 std::string note_on_unrelated(const std::string& state, const std::string& rate, const Vector& expected,
                               const Vector& changes) {
   constexpr double kUnrelated = 0.25;

@@ -72,6 +72,25 @@ TEST_F(PolicyMatch, NamesTheSignAndTheRowThatExplainTheActions) {
   EXPECT_NE(said().find("if each row has the action of the row before"), std::string::npos) << said();
 }
 
+TEST_F(PolicyMatch, NamesTheRowWhereThePolicyBegins) {
+  episode.actions.topRows(4).setZero();
+  EXPECT_NE(said().find("they are the policy's if it begins at 0.4 s: the rows before are to be left out"),
+            std::string::npos)
+      << said();
+}
+
+TEST_F(PolicyMatch, NamesTheColumnsThatAreExchanged) {
+  scenario::Scenario two = scenario;
+  two.task.states.push_back({.name = "y"});  // of which the policy knows nothing
+  Episode swapped = episode;
+  swapped.states.conservativeResize(Eigen::NoChange, 2);
+  swapped.states.col(1) = episode.states.col(0);
+  swapped.states.col(0).setLinSpaced(-1, 1);
+  const auto sentences = sentences_on_policy({swapped}, two, asked, {});
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("they are the policy's if x and y are exchanged"), std::string::npos) << sentences[0];
+}
+
 TEST_F(PolicyMatch, NamesTheTrialWhosePolicyItIs) {
   episode.actions = (0.3 * episode.states.topRows(12)).eval();
   EXPECT_NE(said({trial(1, Vector{{0.3, 0}})}).find("they are those of the policy of trial 1"), std::string::npos);
