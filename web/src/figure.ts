@@ -25,6 +25,9 @@ export interface Figure {
   drawn: () => Drawn[]
 }
 
+/** The width of figures on paper, in px; A4 and Letter have a little more. */
+const PAPER = 640
+
 export function figure(options: FigureOptions): Figure {
   const grid = h('div', { class: 'panels' })
   let layout: Layout = { columns: 1, width: 0, panels: [] }
@@ -46,15 +49,19 @@ export function figure(options: FigureOptions): Figure {
     else panels = draw(grid, layout.panels)
     afterDrawing()
   }
-  const fit = () => {
-    if (body.clientWidth === drawnWidth) return
-    drawnWidth = body.clientWidth
+  const fit = (width: number) => {
+    if (width === drawnWidth) return
+    drawnWidth = width
     redraw()
   }
+  const fitBody = () => fit(body.clientWidth)
   whenNearOrIdle(body, () => {
-    fit() // a page that is printed may see no frame
-    new ResizeObserver(() => requestAnimationFrame(fit)).observe(body)
+    fitBody() // a page that is printed may see no frame
+    new ResizeObserver(() => requestAnimationFrame(fitBody)).observe(body)
   })
+  // A chart as wide as the window would be shrunk to the paper, with its text.
+  window.addEventListener('beforeprint', () => fit(PAPER))
+  window.addEventListener('afterprint', fitBody)
 
   const drawn = () => folds?.panels() ?? panels
   const saveSvg = () =>

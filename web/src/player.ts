@@ -39,6 +39,8 @@ class Player {
   private readonly slider = h('input', { type: 'range', min: 0, value: 0, step: 1, 'aria-label': 'Time' })
   private readonly clock = h('output', { class: 'clock' })
   private readonly play = h('button', { type: 'button', class: 'play', onclick: () => this.toggle(!this.playing) })
+  /** The controls say it on a screen. */
+  private readonly printed = h('p', { class: 'printed' })
   private readonly about = h('p', { class: 'about', 'aria-live': 'polite' })
   private readonly trials: HTMLSelectElement
   private readonly speed = h(
@@ -68,6 +70,7 @@ class Player {
       'div',
       { class: 'player' },
       this.controls(),
+      this.printed,
       this.about,
       this.picture ? h('div', { class: 'stage-frame' }, this.picture.element) : null,
       h('div', { class: 'figures' }, this.walk?.element ?? null, this.states.element),
@@ -158,6 +161,7 @@ class Player {
     this.slider.value = String(Math.round(frame))
     this.slider.setAttribute('aria-valuetext', `${number(this.time, 3)} s`)
     this.clock.value = `${this.time.toFixed(2)} / ${this.end().toFixed(2)} s`
+    this.printed.textContent = `Trial ${this.episode.trial} at ${this.time.toFixed(2)} s`
     for (const { svg } of [...(this.walk?.drawn() ?? []), ...this.states.drawn()]) moveCursor(svg, this.time)
     if (this.episode.motion) this.picture?.show(this.episode.motion, frame)
   }

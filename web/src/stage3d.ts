@@ -32,7 +32,8 @@ export function stage3d(motions: SolidMotion[]): Stage {
     role: 'application',
     'aria-label': 'The robot at the time of the slider. Arrow keys turn the view, + and − zoom, Home goes back.',
   })
-  const context = canvas.getContext('webgl2', { alpha: true, antialias: true })
+  // Without its buffer the picture is missing on paper.
+  const context = canvas.getContext('webgl2', { alpha: true, antialias: true, preserveDrawingBuffer: true })
   if (!context) return withoutWebGl()
   const view = new View(motions, canvas, context)
   return { element: view.element, show: (motion, frame) => isSolid(motion) && view.show(motion, frame) }
