@@ -2,6 +2,7 @@
 import * as Plot from '@observablehq/plot'
 import type { Scale } from './colours'
 import { s } from './dom'
+import { linearTick } from './ticks'
 
 export interface Axis {
   label: string
@@ -127,7 +128,8 @@ function along({ domain: [low, high] }: Axis, from: number, to: number): Along {
 }
 
 function axis({ label, domain }: Axis, length: number): Plot.ScaleOptions {
-  return { type: 'linear', label, domain, ticks: Math.max(3, Math.floor(length / 60)), labelArrow: 'none' }
+  const ticks = Math.max(3, Math.floor(length / 60))
+  return { type: 'linear', label, domain, ticks, tickFormat: linearTick(domain), labelArrow: 'none' }
 }
 
 /** One path a colour, so that a page of many panels stays light. */

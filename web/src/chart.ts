@@ -2,8 +2,8 @@
 import * as Plot from '@observablehq/plot'
 import { INTERVAL_OPACITY, type Symbol } from './colours'
 import { largest, least } from './extent'
-import { number } from './format'
-import { linearTicks, logTicks, plainTick, wholeTicks } from './ticks'
+import { number, percent } from './format'
+import { linearTick, logTick, logTicks, tick, tickRoom, wholeTicks } from './ticks'
 
 export interface Point {
   x: number
@@ -56,12 +56,12 @@ export function chart(options: ChartOptions): SVGSVGElement {
   const { width, x, y, series, rule } = options
   const points = series.flatMap((one) => one.points.map((point) => ({ ...point, label: one.label })))
   const xs = points.map((point) => point.x)
-  const powers = y.percent || y.log ? {} : linearTicks(y.domain ?? series.flatMap(heights))
-  const levels = y.log ? logTicks(y.domain ?? points.map((point) => point.y)) : undefined
+  const ys = y.domain ?? series.flatMap(heights)
+  const levels = y.log ? logTicks(ys) : undefined
   const plot = Plot.plot({
     width,
     height: options.height ?? 240,
-    marginLeft: powers.tickFormat ? 72 : 56,
+    marginLeft: y.log || y.percent ? 56 : tickRoom(ys),
     marginRight: 16,
     marginTop: y.label ? 24 : 10,
     marginBottom: 40,
@@ -72,19 +72,17 @@ export function chart(options: ChartOptions): SVGSVGElement {
       ...axis(x, width / 70),
       labelAnchor: 'center',
       labelArrow: 'none',
-      ...(x.whole ? { ticks: wholeTicks(x.domain ?? xs, width / 45), tickFormat: 'd' } : {}),
-      ...(x.log ? { ticks: [...new Set(xs)], tickFormat: String } : {}),
+      tickFormat: linearTick(x.domain ?? xs),
+      ...(x.whole ? { ticks: wholeTicks(x.domain ?? xs, width / 45), tickFormat: tick } : {}),
+      ...(x.log ? { ticks: [...new Set(xs)], tickFormat: tick } : {}),
     },
     y: {
       ...axis(y, 5),
       labelAnchor: 'top',
       labelArrow: 'none',
       grid: true,
-      ...(y.percent
-        ? { tickFormat: '.0%' }
-        : y.log
-          ? { ...(levels ? { ticks: levels } : {}), tickFormat: plainTick }
-          : powers),
+      ...(levels ? { ticks: levels } : {}),
+      tickFormat: y.percent ? percent : y.log ? logTick : linearTick(ys),
     },
     marks: [
       ...series.flatMap((one) => bands(one, bandStrength(series))),

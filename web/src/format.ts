@@ -1,16 +1,32 @@
 import { present, type Cell } from './data'
 
-/** A number for people: 4 significant digits, no exponent where it can be avoided. */
+const PLAIN_BELOW = 1e6
+const COUNTS_BELOW = 1e9
+
+/**
+ * A number for people, on axes as in sentences and tables: 4 significant digits, thousands apart, and powers of ten
+ * where it is small or large. Whole numbers below 10⁹ are counts, and shown whole.
+ */
 export function number(value: Cell | undefined, digits = 4): string {
   if (!present(value)) return '–'
-  return plain(value, digits).replace(/^-/, '−')
+  if (Number.isInteger(value) && Math.abs(value) < COUNTS_BELOW) return grouped(value)
+  const rounded = Number(value.toPrecision(digits))
+  const size = Math.abs(rounded)
+  return size >= 1e-3 && size < PLAIN_BELOW ? grouped(rounded) : withPower(value, digits - 1)
 }
 
-function plain(value: number, digits: number): string {
-  const size = Math.abs(value)
-  if (Number.isInteger(value) && size < 1e15) return value.toLocaleString('en').replaceAll(',', '\u202f')
-  const extreme = size < 1e-3 || size >= 1e6
-  return extreme ? value.toExponential(digits - 2) : String(Number(value.toPrecision(digits)))
+/** A number that is neither small nor large, with all its digits and thousands apart. */
+export function grouped(value: number): string {
+  const [whole, ...part] = String(value).split('.')
+  return [whole?.replace('-', '−').replaceAll(/\B(?=(\d{3})+$)/g, '\u202f'), ...part].join('.')
+}
+
+/** One power of ten with a factor from 1 to below 10: 5·10¹¹, and 10¹². */
+export function withPower(value: number, digits: number): string {
+  const [factor, exponent = ''] = value.toExponential(digits - 1).split('e')
+  const power = '10' + [...exponent.replace('+', '')].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('')
+  const short = String(Number(factor)).replace('-', '−')
+  return short === '1' ? power : short === '−1' ? `−${power}` : `${short}·${power}`
 }
 
 export function percent(value: Cell): string {

@@ -1,6 +1,6 @@
 // The ticks of axes, and their labels.
 import { largest, least } from './extent'
-import { number } from './format'
+import { grouped, withPower } from './format'
 
 /** Every integer between the least and the largest, or every second, fifth, … */
 export function wholeTicks(values: number[], most: number): number[] {
@@ -34,28 +34,32 @@ export function logTicks(values: number[]): number[] | undefined {
   return between.length > 1 ? between : undefined
 }
 
-/** A number of a logarithmic axis without the letters of Plot, to which 0.2 is 200m: 0.002 is 2·10⁻³. */
-export function plainTick(value: number): string {
-  const exponent = exponentOf(value)
-  return Math.abs(exponent) <= 2 ? number(value) : withPower(value, exponent)
+const DIGITS = 12
+
+/** A number of an axis that is neither small nor large, with all its digits but those that a sum like 0.1 + 0.2 adds. */
+export function tick(value: number): string {
+  return grouped(Number(value.toPrecision(DIGITS)))
 }
 
-/**
- * The labels of a linear axis whose numbers are so small or large that plain ones would be long: one power of ten, with
- * factors below 100, 5·10⁻¹⁵ and 30·10⁻¹⁵. All others are left to Plot.
- */
-export function linearTicks(values: number[]): { tickFormat?: (value: number) => string } {
-  const size = largest(values.map(Math.abs).filter(Number.isFinite))
-  if (size <= 0 || (size >= 1e-3 && size < 1e6)) return {}
-  return { tickFormat: (value) => (value === 0 ? '0' : withPower(value, exponentOf(size) - 1)) }
+/** A number of a logarithmic axis: 0.002 is 2·10⁻³, 1000 is 10³. */
+export function logTick(value: number): string {
+  const plain = value >= 0.01 * (1 - 1e-9) && value < 1000 * (1 - 1e-9)
+  return plain ? tick(value) : withPower(value, DIGITS)
 }
 
-function exponentOf(value: number): number {
-  return Math.floor(Math.log10(value) + 1e-9)
+/** The labels of a linear axis to these numbers; all have powers of ten where plain ones would be long. */
+export function linearTick(values: number[]): (value: number) => string {
+  const size = sizeOf(values)
+  if (size <= 0 || (size >= 1e-3 && size < 1e6)) return tick
+  return (value) => (value === 0 ? '0' : withPower(value, DIGITS))
 }
 
-function withPower(value: number, exponent: number): string {
-  const factor = number(Number((value / 10 ** exponent).toPrecision(12)))
-  const power = '10' + [...String(exponent)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('')
-  return factor === '1' ? power : `${factor}·${power}`
+/** The room for the labels of a linear axis to these numbers, in px. */
+export function tickRoom(values: number[]): number {
+  const size = sizeOf(values)
+  return size >= 1e4 || (size > 0 && size < 1e-3) ? 72 : 56
+}
+
+function sizeOf(values: number[]): number {
+  return largest(values.map(Math.abs).filter(Number.isFinite))
 }

@@ -7,6 +7,7 @@ import type { Row } from './export'
 import { largest, least } from './extent'
 import type { Panel } from './panels'
 import { NUMBERS } from './solids'
+import { tick } from './ticks'
 
 /** A foot and its number among the bodies. */
 interface Foot {
@@ -98,6 +99,7 @@ function gait(motion: SolidMotion, step: number, width: number): SVGSVGElement {
       labelArrow: 'none',
       domain: [0, (motion.frames.length - 1) * step],
       ticks: Math.max(3, Math.floor(width / 80)),
+      tickFormat: tick,
     },
     y: { label: null, domain: names, padding: 0.2 },
     marks: [
@@ -129,7 +131,7 @@ function way(motion: SolidMotion, width: number): SVGSVGElement {
     Plot.line(data, { x: 'x', y: 'y', stroke, strokeWidth: 2, ...(strokeDasharray ? { strokeDasharray } : {}) }),
     Plot.dot(data.slice(-1), { x: 'x', y: 'y', fill: stroke, r: 4 }),
   ]
-  const axis = { labelAnchor: 'center' as const, labelArrow: 'none' as const, grid: true }
+  const axis = { labelAnchor: 'center' as const, labelArrow: 'none' as const, grid: true, tickFormat: tick }
   return Plot.plot({
     width,
     height: height + 50,

@@ -6,7 +6,7 @@ import { source } from './sources.mjs'
 const { errorSeries, firstModel, laterModels } = await source('run_errors')
 const { firstValues, hasIntervals } = await source('run_model')
 const { bandStrength, fit } = await source('chart')
-const { linearTicks, logTicks, plainTick, powersOfTen, wholeTicks } = await source('ticks')
+const { linearTick, logTick, logTicks, powersOfTen, tick, tickRoom, wholeTicks } = await source('ticks')
 const { variantLooks } = await source('colours')
 const { besideEachOther, returns } = await source('campaign_figures')
 const { medianPoint } = await source('groups')
@@ -66,7 +66,7 @@ test('logarithmic axes have plain numbers, also where they span little', () => {
     100: '100',
     1e-12: '10⁻¹²',
   }
-  for (const [value, text] of Object.entries(shown)) assert.equal(plainTick(Number(value)), text)
+  for (const [value, text] of Object.entries(shown)) assert.equal(logTick(Number(value)), text)
 })
 
 test('intervals of many groups stay in their trial', () => {
@@ -138,11 +138,18 @@ test('a group has no point where no run is left', () => {
 })
 
 test('linear axes have powers of ten where plain numbers are too long', () => {
-  const shown = (domain, ...ticks) => ticks.map(linearTicks(domain).tickFormat).join()
-  assert.equal(shown([-1e-15, 3e-14], 0, 5e-15, 3e-14), '0,5·10⁻¹⁵,30·10⁻¹⁵')
-  assert.equal(shown([-2.5e-4, 1e-4], -2e-4, 1e-4), '−20·10⁻⁵,10·10⁻⁵')
-  assert.equal(shown([0, 3e6], 5e5, 2.5e6), '5·10⁵,25·10⁵')
-  for (const plain of [[-2.5, 2.5], [0, 0.002], [0, 9e5], [0, 0], []]) assert.deepEqual(linearTicks(plain), {})
+  const shown = (domain, ...ticks) => ticks.map(linearTick(domain)).join(' ')
+  assert.equal(shown([-1e-15, 3e-14], 0, 5e-15, 3e-14), '0 5·10⁻¹⁵ 3·10⁻¹⁴')
+  assert.equal(shown([-2.5e-4, 1e-4], -2e-4, 1e-4), '−2·10⁻⁴ 10⁻⁴')
+  assert.equal(shown([0, 3e6], 5e5, 1e6, 2.5e6), '5·10⁵ 10⁶ 2.5·10⁶')
+  assert.equal(shown([0, 1.5e12], 5e11, 1e12, 1.5e12), '5·10¹¹ 10¹² 1.5·10¹²')
+  assert.equal(shown([-2.5, 2.5], -2.5, 0, 0.1 + 0.2), '−2.5 0 0.3')
+  assert.equal(shown([0, 0.002], 0.0005, 0.0015), '0.0005 0.0015')
+  assert.equal(shown([1000, 1001], 1000, 1000.5), '1\u202f000 1\u202f000.5')
+  assert.equal(shown([0, 9e5], -5e4, 15e4), '−50\u202f000 150\u202f000')
+  assert.equal(tick(1200), '1\u202f200')
+  assert.equal(tickRoom([0, 150_000]), tickRoom([0, 3e-14]))
+  for (const small of [[-250, 2.5], [0, 0], []]) assert.ok(tickRoom(small) < tickRoom([0, 150_000]))
 })
 
 test('a prediction ends where fewer than half of the episodes are left, and says how many are', () => {

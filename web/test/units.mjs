@@ -11,6 +11,7 @@ const { relativeErrors } = await source('state_errors')
 const { partFolds, partsOfRobot } = await source('part_folds')
 const { longestErrors } = await source('run_errors')
 const { outcome } = await source('limits')
+const { duration, number, percent } = await source('format')
 const { bestRow } = await source('trials')
 
 const named = (states, others) =>
@@ -190,4 +191,25 @@ test('a trial that was cut short is not the best, unless all were', () => {
   assert.equal(bestRow({ return: [-9, -8, -1], cut_short: [0, 0, 1] }), 1)
   assert.equal(bestRow({ return: [-9, -8, -1] }), 2)
   assert.equal(bestRow({ return: [-9, -8], cut_short: [1, 1] }), 0)
+})
+
+test('numbers are written in one way', () => {
+  const shown = {
+    0: '0',
+    '-3': '−3',
+    501728: '501\u202f728',
+    12345678: '12\u202f345\u202f678',
+    1e9: '10⁹',
+    123456789012345: '1.23·10¹⁴',
+    '-1e12': '−10¹²',
+    1234.56: '1\u202f235',
+    999999.9: '10⁶',
+    2345678.9: '2.35·10⁶',
+    0.5: '0.5',
+    0.00012345: '1.23·10⁻⁴',
+  }
+  for (const [value, text] of Object.entries(shown)) assert.equal(number(Number(value)), text)
+  assert.equal(number(null), '–')
+  assert.equal(percent(0.3), '30 %')
+  assert.equal(duration(0.00012), '10⁻⁴ s')
 })
