@@ -1,5 +1,6 @@
 // The page of a campaign.
-import { parameters, returns, success, times } from './campaign_figures'
+import { returns, success, times } from './campaign_figures'
+import { parameters } from './campaign_parameters'
 import { claims, runs } from './campaign_tables'
 import type { Campaign, Report } from './data'
 import { h, type Child } from './dom'

@@ -1,4 +1,4 @@
-// Return, success, parameters and time, a panel for each prior and a line for each learner.
+// Return, success and time, a panel for each prior and a line for each learner.
 import { chart, fit, heights, type Point, type Series } from './chart'
 import { present, type Campaign, type Group, type GroupTrial, type Quartiles, type SuccessRate } from './data'
 import type { Child } from './dom'
@@ -9,11 +9,10 @@ import { count, number, percent } from './format'
 import { inPanel, legendOf, medianPoint, medianPoints, panelPriors, panelTitle, type StyleOf } from './groups'
 import { choice } from './layout'
 import type { Panel } from './panels'
-
-const TRIAL = { label: 'trial', whole: true }
+import { TRIAL } from './trials'
 
 /** The first of the campaign file is drawn last, over the others. */
-function inFront(series: Series[]): Series[] {
+export function inFront(series: Series[]): Series[] {
   return [...series].reverse()
 }
 
@@ -51,7 +50,11 @@ export function returns(campaign: Campaign, style: StyleOf): Child {
     name: 'return-by-interaction-time',
     title: 'Return against time on the robot',
     about: 'Median and quartiles over the seeds.',
-    legend: legendOf(groups, style, { band: 0.16 }),
+    legend: legendOf(
+      groups.filter((group) => series(group).points.length > 0),
+      style,
+      { band: 0.16 },
+    ),
     controls: choice('Return', measures, (value) => {
       measure = value as typeof measure
       drawn.redraw()
@@ -78,6 +81,7 @@ export function success(campaign: Campaign, style: StyleOf): Child {
     const shift = besideEachOther(i, all.length)
     return { ...style(group), points: group.trials.flatMap((one) => ratePoint(one.trial, shift, one[measure])) }
   }
+  const drawnGroups = groups.filter((group) => series(group, 0, [group]).points.length > 0)
   const panel = (prior: string): Panel => ({
     title: panelTitle(prior),
     draw: (width) =>
@@ -97,7 +101,7 @@ export function success(campaign: Campaign, style: StyleOf): Child {
     name: 'success-by-trial',
     title: 'Success rate by trial',
     about: 'With 95 % intervals (Clopper and Pearson 1934). Runs that failed count as not solved.',
-    legend: legendOf(groups, style),
+    legend: legendOf(drawnGroups, style),
     controls: choice('Solved', measures, (value) => {
       measure = value as typeof measure
       drawn.redraw()
@@ -131,48 +135,6 @@ function ratePoint(trial: number, shift: number, rate: SuccessRate | null): Poin
   return [{ x: trial + shift, y: rate.rate, tip, ...interval }]
 }
 
-export function parameters({ parameters }: Campaign, style: StyleOf): Child {
-  if (parameters.length === 0) return null
-  const names = [...new Set(parameters.map(({ parameter }) => parameter))]
-  const priors = [...new Set(parameters.map(({ prior }) => prior))]
-  const panel = (prior: string, name: string): Panel[] => {
-    const all = parameters.filter((one) => one.parameter === name)
-    const shown = all.filter((one) => one.prior === prior)
-    if (shown.length === 0) return []
-    const truths = [...new Set(shown.map((one) => one.truth))]
-    const truth = truths.length === 1 ? truths[0] : null
-    const values = [
-      ...all.flatMap((one) => heights({ points: medianPoints(one) })),
-      ...all.map((one) => one.truth).filter(present),
-    ]
-    return [
-      {
-        title: `${name}, ${panelTitle(prior)}`,
-        draw: (width) =>
-          chart({
-            width,
-            height: 190,
-            x: TRIAL,
-            y: { label: '', ...fit(values, { span: 0.2 }) },
-            series: inFront(shown.map((one) => ({ ...style(one), points: medianPoints(one) }))),
-            rule: present(truth) ? { y: truth, label: 'robot' } : null,
-          }),
-      },
-    ]
-  }
-  return figure({
-    name: 'parameters-by-trial',
-    title: 'Identified parameters against the truth',
-    about:
-      'Median and quartiles of the values with which the model chose each trial’s policy. A dashed line is the robot’s own value, where it is that of all runs.',
-    legend: legendOf(parameters, style, { band: 0.16 }),
-    panels: () => priors.flatMap((prior) => names.flatMap((name) => panel(prior, name))),
-    table: () => parameters.flatMap((one) => quartileRows(one, { parameter: one.parameter, truth: one.truth })),
-    minWidth: 220,
-    columns: names.length,
-  }).element
-}
-
 const SHORTEST_S = 0.01
 
 export function times(campaign: Campaign, style: StyleOf): Child {
@@ -194,7 +156,11 @@ export function times(campaign: Campaign, style: StyleOf): Child {
     about:
       'Median and quartiles over the runs, of searching the policy and of learning the model. ' +
       'Less than 10 ms is drawn as 10 ms.',
-    legend: legendOf(times, style, { band: 0.16 }),
+    legend: legendOf(
+      times.filter((one) => medianPoints(one).length > 0),
+      style,
+      { band: 0.16 },
+    ),
     panels: () =>
       panelPriors(campaign).flatMap((prior) => [panel(prior, 'search_s', 'search'), panel(prior, 'model_s', 'model')]),
     table: () => times.flatMap((one) => quartileRows(one, { part: one.part })),
@@ -216,7 +182,7 @@ function byTrial(groups: Group[], row: (trial: GroupTrial) => Row): Row[] {
   )
 }
 
-function quartileRows({ learner, prior, variant, trials }: Quartiles, of: Row): Row[] {
+export function quartileRows({ learner, prior, variant, trials }: Quartiles, of: Row): Row[] {
   return trials.map((quartiles) => ({ learner, prior, variant, ...of, ...quartiles }))
 }
 

@@ -1,6 +1,7 @@
 // Lines with bands over a number, which is what nearly every figure here is.
 import * as Plot from '@observablehq/plot'
-import { INTERVAL_OPACITY, type Symbol } from './colours'
+import { INTERVAL_OPACITY, RULE, type Symbol } from './colours'
+import { present } from './data'
 import { largest, least } from './extent'
 import { number, percent } from './format'
 import { linearTick, logTick, logTicks, tick, tickRoom, wholeTicks } from './ticks'
@@ -42,10 +43,10 @@ export interface ChartOptions {
   width: number
   height?: number
   x: { label: string; domain?: [number, number]; whole?: boolean; log?: boolean }
-  y: { label: string; domain?: [number, number]; log?: boolean; percent?: boolean }
+  y: { label: string; domain?: [number, number]; whole?: boolean; log?: boolean; percent?: boolean }
   series: Series[]
-  /** A dashed horizontal line with its label. */
-  rule?: { y: number; label: string } | null
+  /** A dashed horizontal line, at y; the legend says what it is. */
+  rule?: number | null
   /** A vertical line that `moveCursor` moves. */
   cursor?: boolean
 }
@@ -81,12 +82,14 @@ export function chart(options: ChartOptions): SVGSVGElement {
       labelAnchor: 'top',
       labelArrow: 'none',
       grid: true,
-      ...(levels ? { ticks: levels } : {}),
+      ...(y.whole ? { ticks: wholeTicks(ys, 8) } : levels ? { ticks: levels } : {}),
       tickFormat: y.percent ? percent : y.log ? logTick : linearTick(ys),
     },
     marks: [
       ...series.flatMap((one) => bands(one, bandStrength(series))),
-      rule ? ruleMarks(rule) : null,
+      present(rule)
+        ? Plot.ruleY([rule], { stroke: RULE.colour, strokeDasharray: RULE.dash, strokeOpacity: 0.7 })
+        : null,
       ...series.flatMap(lines),
       Plot.tip(
         points,
@@ -223,13 +226,6 @@ function lines({
           ),
         )
       : []),
-  ]
-}
-
-function ruleMarks({ y, label }: { y: number; label: string }): Plot.Markish[] {
-  return [
-    Plot.ruleY([y], { stroke: 'currentColor', strokeDasharray: '4 3', strokeOpacity: 0.7 }),
-    Plot.text([label], { y, frameAnchor: 'right', dy: -7, textAnchor: 'end', fillOpacity: 0.8 }),
   ]
 }
 

@@ -25,6 +25,8 @@ export const REAL = 'var(--vermillion)'
 export const PREDICTED = 'var(--blue)'
 export const EXPECTED = 'var(--orange)'
 export const MOMENTS = 'var(--green)'
+/** A dashed line at a number that the others are compared with. */
+export const RULE = { colour: 'currentColor', dash: '4 3' }
 /** The opacity of intervals' vertical bars. */
 export const INTERVAL_OPACITY = 0.55
 

@@ -1,6 +1,6 @@
 // Moment matching's predictions of a trial, beside the samples (docs/pilco.md).
 import { chart, fit, heights, type ChartOptions, type Domain, type Point, type Series } from './chart'
-import { MOMENTS, PREDICTED } from './colours'
+import { MOMENTS, PREDICTED, RULE } from './colours'
 import { column, present, type Columns, type Run } from './data'
 import { h, type Child } from './dom'
 import { largest, least } from './extent'
@@ -86,7 +86,7 @@ export function gaps({ episodes }: Run): Child {
         x: { label: 'trial', whole: true },
         y: { ...y, ...(y.log ? decades(values(all)) : fit([...values(all), ...(equal ? [1] : [])], { zero: true })) },
         series: all,
-        rule: equal ? { y: 1, label: 'equal' } : null,
+        rule: equal ? 1 : null,
       }),
   })
   return figure({
@@ -98,7 +98,10 @@ export function gaps({ episodes }: Run): Child {
       'not Gaussian, and where states are measured with noise, which moment matching does not know.',
     legend: [
       { label: 'moment matching', colour: MOMENTS, symbol: 'triangle' },
-      { label: 'samples', colour: PREDICTED, symbol: 'square', dash: '6 3' },
+      ...(known.some((gap) => present(gap.sampled_return))
+        ? [{ label: 'samples', colour: PREDICTED, symbol: 'square' as const, dash: '6 3' }]
+        : []),
+      { label: 'equal', ...RULE },
     ],
     panels: () => [
       panel('Largest difference of means', { label: 'standard deviations of the samples', log: true }, [

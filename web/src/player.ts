@@ -84,7 +84,7 @@ class Player {
       name: 'walk',
       title: 'The walk of the trial',
       about: 'When each foot is on the floor, and the way of the trunk, seen from above.',
-      legend: [ROBOT, MEAN],
+      legend: this.episodes.some(({ motion }) => motion?.predicted) ? [ROBOT, MEAN] : [ROBOT],
       panels: () => walkPanels(this.episode, this.step()),
       table: () => walkTable(this.episode, this.step()),
       minWidth: 320,

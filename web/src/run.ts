@@ -9,7 +9,7 @@ import { gaps, gapSentence } from './moments'
 import { player } from './player'
 import { rollouts, times } from './run_computing'
 import { errors } from './run_errors'
-import { evidence, parameters } from './run_model'
+import { evidence, keptParameters, parameters } from './run_model'
 import { returns } from './run_returns'
 import { robustness } from './run_robustness'
 import { notes, options } from './run_tables'
@@ -28,7 +28,11 @@ export function runPage(report: Report, run: Run): Child[] {
         { id: 'replay', title: 'Replay', content: [replay(run)] },
         { id: 'archive', title: 'The archive', content: archiveFigures(run) },
         { id: 'robustness', title: 'Robustness', content: [robustness(run)] },
-        { id: 'model', title: 'The model', content: [errors(run), gaps(run), beside(parameters(run), evidence(run))] },
+        {
+          id: 'model',
+          title: 'The model',
+          content: [errors(run), gaps(run), keptParameters(run), beside(parameters(run), evidence(run))],
+        },
         { id: 'computing', title: 'Computing', content: [beside(times(run), rollouts(run)), notes(run)] },
         { id: 'options', title: 'Options', content: [options(run)] },
       ]),

@@ -1,6 +1,7 @@
 // The model of a run: its parameters and its evidence.
 import { chart, fit, heights, type Point } from './chart'
-import { PREDICTED } from './colours'
+import { choiceAxis, isChoice } from './choices'
+import { PREDICTED, RULE } from './colours'
 import { present, withUnit, type Cell, type Columns, type Run } from './data'
 import { h, type Child } from './dom'
 import type { Row } from './export'
@@ -11,56 +12,87 @@ import type { LegendEntry } from './legend'
 import { pointsOf, rowsOf, TRIAL } from './trials'
 
 export function parameters(run: Run): Child {
-  const { trials, truth = {}, units = {}, identifiability } = run
-  const columns = Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
-  const isEnd = (name: string) => /\.(low|high)$/.test(name) && columns.includes(name.replace(/\.[a-z]+$/, ''))
-  const names = columns.filter((name) => !isEnd(name))
-  if (!trials || names.length === 0 || !trials['trial']?.length) return null
-  const panel = (column: string): Panel => {
-    const name = column.slice(4)
-    const known = truth[name]
-    const points = withIntervals(pointsOf(trials, column), trials, column)
-    const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const }]
-    const values = [...heights({ points }), ...(present(known) ? [known] : [])]
-    return {
-      title: withUnit({ name, unit: units[name] ?? '' }),
-      draw: (width) =>
-        chart({
-          width,
-          height: 190,
-          x: TRIAL,
-          y: { label: '', ...fit(values, { span: 0.2 }) },
-          series,
-          rule: present(known) ? { y: known, label: 'robot' } : null,
-        }),
-    }
-  }
+  const { trials, truth = {}, identifiability } = run
+  const columns = parameterColumns(trials)
+  const names = columns.filter((name) => !isEnd(name, columns))
+  if (!trials || names.length === 0 || !trials['trial']?.length || keepsPrior(run)) return null
+  const intervals = hasIntervals(trials, names)
+  const known = names.some((column) => present(truth[nameOf(column)]))
   return figure({
     name: 'parameters-by-trial',
     title: 'Parameters of the prior',
     about: h(
       'div',
       {},
-      `The model chose each trial’s policy with these values. ${firstValues(run)} ` +
-        'A dashed line is the robot’s own value, where the scenario says it.',
+      `The model chose each trial’s policy with these values. ${firstValues(run)}`,
       warningList(identifiability, trials['trial']?.at(-1)),
     ),
-    ...(hasIntervals(trials, names) ? { legend: INTERVAL_LEGEND } : {}),
-    panels: () => names.map(panel),
+    legend: intervals || known ? [LEARNED, ...(intervals ? [INTERVAL] : []), ...(known ? [TRUTH] : [])] : [],
+    panels: () => names.map((column) => parameterPanel(run, trials, column)),
     table: () => rowsOf(trials, ['trial', ...columns]).map((row) => ({ ...row, ...prefixed('truth.', truth) })),
     minWidth: 220,
     columns: 2,
   }).element
 }
 
+function parameterPanel({ truth = {}, units = {} }: Run, trials: Columns, column: string): Panel {
+  const name = nameOf(column)
+  const known = truth[name]
+  const points = withIntervals(pointsOf(trials, column), trials, column)
+  const ends = ['low', 'high'].flatMap((end) => trials[`${column}.${end}`] ?? [])
+  const choice = isChoice(trials[column] ?? [], ends, known)
+  const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const, held: choice }]
+  const values = [...heights({ points }), ...(present(known) ? [known] : [])]
+  const y = { label: '', ...(choice ? choiceAxis(values) : fit(values, { span: 0.2 })) }
+  return {
+    title: withUnit({ name, unit: units[name] ?? '' }),
+    draw: (width) => chart({ width, height: 190, x: TRIAL, y, series, rule: known ?? null }),
+  }
+}
+
+function parameterColumns(trials: Columns | undefined): string[] {
+  return Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
+}
+
+function isEnd(name: string, columns: string[]): boolean {
+  return /\.(low|high)$/.test(name) && columns.includes(name.replace(/\.[a-z]+$/, ''))
+}
+
+function nameOf(column: string): string {
+  return column.slice('phi.'.length)
+}
+
+/** True of a run that learned nothing of them: its lines would look like parameters that are hard to find. */
+export function keepsPrior({ trials, logs }: Pick<Run, 'trials' | 'logs'>): boolean {
+  const columns = parameterColumns(trials)
+  const names = columns.filter((name) => !isEnd(name, columns))
+  if (logs || !trials || names.length === 0 || hasIntervals(trials, names)) return false
+  const constant = (cells: Cell[]) => cells.length > 1 && cells.every((value) => value === cells[0])
+  return names.every((name) => constant((trials[name] ?? []).filter(present)))
+}
+
+/** What stands in place of the figure then. */
+export function keptParameters(run: Run): Child {
+  if (!keepsPrior(run)) return null
+  const { trials, truth = {}, units = {} } = run
+  const columns = parameterColumns(trials)
+  const texts = columns.flatMap((column): string[] => {
+    const [name, value] = [nameOf(column), trials?.[column]?.find(present)]
+    if (isEnd(column, columns) || !present(value)) return []
+    const [known, unit] = [truth[name], units[name] ? ` ${units[name]}` : '']
+    const other = present(known) && known !== value ? ` (the robot’s is ${number(known)}${unit})` : ''
+    return [`${name} ${number(value)}${unit}${other}`]
+  })
+  return h('p', { class: 'about' }, `All trials had the prior’s own parameters: ${texts.join(', ')}.`)
+}
+
 export function firstValues({ logs }: Pick<Run, 'logs'>): string {
   return logs ? 'Trial 1 has those of the model from the logs.' : 'Trial 1 has those of the prior as given.'
 }
 
-const INTERVAL_LEGEND: LegendEntry[] = [
-  { label: 'learned', colour: PREDICTED, symbol: 'circle' },
-  { label: '95 % interval', colour: PREDICTED, interval: true, line: false },
-]
+const LEARNED: LegendEntry = { label: 'learned', colour: PREDICTED, symbol: 'circle' }
+const INTERVAL: LegendEntry = { label: '95 % interval', colour: PREDICTED, interval: true, line: false }
+export const TRUTH: LegendEntry = { label: 'the robot’s own value', ...RULE }
 
 /** False of a learner that never learns an interval, whose cells are all empty. */
 export function hasIntervals(trials: Columns, names: string[]): boolean {

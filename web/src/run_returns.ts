@@ -18,10 +18,9 @@ export function returns({ trials }: Run): Child {
     { label: 'robot', colour: REAL, points: real.points, symbol: 'circle' },
   ]
   const evaluated = expected.length > 0
-  const legend: LegendEntry[] = [
-    ...real.legend,
-    { label: 'predicted before the trial', colour: PREDICTED, symbol: 'square', dash: '6 3' },
-  ]
+  const legend: LegendEntry[] = [...real.legend]
+  if (predicted.length > 0)
+    legend.push({ label: 'predicted before the trial', colour: PREDICTED, symbol: 'square', dash: '6 3' })
   if (evaluated) legend.push({ label: 'mean of more episodes', colour: EXPECTED, symbol: 'triangle', dash: '2 3' })
   return figure({
     name: 'returns-by-trial',
@@ -57,11 +56,11 @@ export function onTheRobot(trials: Columns): { points: Point[]; legend: LegendEn
   const points = pointsOf(trials, 'return')
   const look = { colour: REAL, symbol: 'circle' as const }
   if (!solved.some(present)) return { points, legend: [{ label: 'on the robot', ...look }] }
-  return {
-    points: points.map((p, i) => ({ ...p, hollow: solved[i] !== 1 })),
-    legend: [
-      { label: 'on the robot, solved', ...look },
-      { label: 'on the robot, not solved', ...look, hollow: true },
-    ],
-  }
+  const marked = points.map((p, i) => ({ ...p, hollow: solved[i] !== 1 }))
+  const entries: LegendEntry[] = [
+    { label: 'on the robot, solved', ...look },
+    { label: 'on the robot, not solved', ...look, hollow: true },
+  ]
+  const drawn = (hollow: boolean) => marked.some((point) => point.hollow === hollow)
+  return { points: marked, legend: entries.filter(({ hollow = false }) => drawn(hollow)) }
 }

@@ -4,9 +4,11 @@ import { test } from 'node:test'
 import { source } from './sources.mjs'
 
 const { errorSeries, firstModel, laterModels } = await source('run_errors')
-const { firstValues, hasIntervals } = await source('run_model')
+const { firstValues, hasIntervals, keepsPrior } = await source('run_model')
 const { bandStrength, fit } = await source('chart')
 const { linearTick, logTick, logTicks, powersOfTen, tick, tickRoom, wholeTicks } = await source('ticks')
+const { isChoice, isChoiceOfRuns } = await source('choices')
+const { thatKeepThePrior } = await source('campaign_parameters')
 const { variantLooks } = await source('colours')
 const { besideEachOther, returns } = await source('campaign_figures')
 const { medianPoint } = await source('groups')
@@ -30,6 +32,11 @@ test('returns of a task that cannot say solved are none of trials that failed', 
     [true, false],
   )
   assert.equal(known.legend.length, 2)
+  const never = onTheRobot({ ...trials, solved: [0, 0] })
+  assert.deepEqual(
+    never.legend.map(({ label }) => label),
+    ['on the robot, not solved'],
+  )
 })
 
 test('the first model is the prior as given, unless it has learned from logs', () => {
@@ -110,6 +117,38 @@ test('a legend has intervals where there are some', () => {
   assert.equal(hasIntervals(empty, ['phi.m']), false)
   assert.equal(hasIntervals({ ...empty, 'phi.m.low': [null, 0.5] }, ['phi.m']), true)
   assert.equal(hasIntervals({ 'phi.m': [1] }, ['phi.m']), false)
+})
+
+test('a parameter is a choice where all its values are whole and none has an interval', () => {
+  assert.ok(isChoice([-1, 2, null, 2], [null, null]))
+  assert.ok(!isChoice([1, 2], [null, 1.9]))
+  assert.ok(!isChoice([1, 1.5], []))
+  assert.ok(!isChoice([1, 2], [], 0.5))
+  const group = (rows, truth = null) => ({
+    truth,
+    trials: rows.map(([quartile_1, median, quartile_3]) => ({ quartile_1, median, quartile_3 })),
+  })
+  assert.ok(isChoiceOfRuns([group([[-1, -1, -1]]), group([[-1, 1.5, 4], [4, 4, 4], [null, null, null]])])) // prettier-ignore
+  assert.ok(!isChoiceOfRuns([group([[0.5, 0.5, 0.5], [1, 1, 1]])])) // prettier-ignore
+  assert.ok(!isChoiceOfRuns([group([[1, 1, 1], [1, 1.1, 1.25]])])) // prettier-ignore
+  assert.ok(!isChoiceOfRuns([group([[1, 1, 1]]), group([[1, 1, 1]])]))
+  assert.ok(!isChoiceOfRuns([group([[1, 1, 1], [2, 2, 2]], 1.5)])) // prettier-ignore
+})
+
+test('what keeps the parameters of the prior is no figure', () => {
+  const trials = { trial: [1, 2], 'phi.m': [1, 1], 'phi.l': [0.5, 0.5], 'phi.l.low': [null, null] }
+  assert.ok(keepsPrior({ trials }))
+  assert.ok(!keepsPrior({ trials, logs: true }))
+  assert.ok(!keepsPrior({ trials: { ...trials, 'phi.m': [1, 1.1] } }))
+  assert.ok(!keepsPrior({ trials: { ...trials, 'phi.l.low': [null, 0.4], 'phi.l.high': [null, 0.6] } }))
+  assert.ok(!keepsPrior({ trials: { trial: [1], 'phi.m': [1] } }))
+  assert.ok(!keepsPrior({ trials: { trial: [1, 2] } }))
+  const of = (learner, parameter, ...medians) => ({
+    ...{ learner, prior: 'light', variant: '', parameter, truth: 1 },
+    trials: medians.map((median) => ({ quartile_1: median, median, quartile_3: median })),
+  })
+  const all = [of('a', 'm', 1, 1), of('a', 'l', 2, 2), of('b', 'm', 1, 1), of('b', 'l', 2, 1), of('c', 'm', 1)]
+  assert.deepEqual(thatKeepThePrior(all), [JSON.stringify(['a', 'light', ''])])
 })
 
 test('a campaign without a trial has no figures of returns', () => {
