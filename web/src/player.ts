@@ -18,6 +18,8 @@ const ENDS = ' A prediction ends where fewer than half of its simulated episodes
 const BY_PARTS =
   ' States stand by body part, those first that the model got most wrong in this trial. The error of a state is the root ' +
   'mean square over the trial, relative to the range in which the state moved in all trials.'
+/** A page that takes longer to draw goes on from where it was seen last. */
+const LONGEST_STEP_S = 0.1
 const SPEEDS = [0.25, 0.5, 1, 2]
 
 /** describe: what is said of a trial ("Return 21.9, solved."). */
@@ -194,7 +196,8 @@ class Player {
   private tick(before: number) {
     requestAnimationFrame((now) => {
       if (!this.playing) return
-      this.seek(this.time + (Number(this.speed.value) * (now - before)) / 1000)
+      const passed = Math.min((now - before) / 1000, LONGEST_STEP_S)
+      this.seek(this.time + Number(this.speed.value) * passed)
       if (this.time >= this.end()) this.toggle(false)
       else this.tick(now)
     })

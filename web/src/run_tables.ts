@@ -6,14 +6,29 @@ import { tableFigure } from './figure'
 export function notes({ notes }: Run): Child {
   if (!notes?.trial.length) return null
   const rows = notes.trial.map((trial, i) => ({ trial, note: notes.note[i] ?? '' }))
-  const lines = rows.map(({ trial, note }) => h('tr', {}, h('td', {}, trial), h('td', {}, note)))
+  const all = [...new Set(rows.map(({ note }) => note))]
+  const lines = all.map((note) => {
+    const trials = rows.filter((row) => row.note === note).map(({ trial }) => trial)
+    return h('tr', {}, h('td', {}, spans(trials)), h('td', {}, note))
+  })
   return tableFigure({
     name: 'notes',
     title: 'Notes',
-    columns: ['Trial', 'What happened'],
+    columns: ['Trials', 'What happened'],
     lines,
     table: () => rows,
   })
+}
+
+/** Numbers in ascending order, those in a row as one: 1–3, 5. */
+export function spans(numbers: number[]): string {
+  const all: [number, number][] = []
+  for (const value of [...new Set(numbers)].sort((a, b) => a - b)) {
+    const last = all.at(-1)
+    if (last && last[1] === value - 1) last[1] = value
+    else all.push([value, value])
+  }
+  return all.map(([from, to]) => (from === to ? `${from}` : `${from}–${to}`)).join(', ')
 }
 
 export function options({ options }: Run): Child {

@@ -18,7 +18,7 @@ interface Bounds {
 
 /** One that has room for all these motions; where they go far along the ground, it follows the robot. */
 export function stage(motions: LineMotion[]): Stage {
-  const bounds = boundsOf(motions)
+  const bounds = withScaleBar(boundsOf(motions))
   const height = bounds.top - bounds.bottom
   const width = Math.min(bounds.right - bounds.left, 1.6 * height)
   const size = Math.max(width, height)
@@ -123,6 +123,12 @@ function goalMarks(goal: LineMotion['goal'], size: number): SVGElement[] {
     s('line', { x1: x - 1.6 * r, x2: x + 1.6 * r, y1: -y, y2: -y }),
     s('line', { x1: x, x2: x, y1: -y - 1.6 * r, y2: -y + 1.6 * r }),
   ]
+}
+
+/** Room for the scale bar below the robot, which may hang. */
+function withScaleBar(bounds: Bounds): Bounds {
+  const size = Math.max(bounds.top - bounds.bottom, bounds.right - bounds.left)
+  return { ...bounds, bottom: bounds.bottom - 0.1 * size }
 }
 
 /** The distance of the marks on the ground, in a lower corner. */

@@ -2,7 +2,7 @@
 // console, on any request, and on what it does not show. PACKAGES: the folder of node_modules. FOLDER: has the pages of
 // these names; report.sh makes them.
 import assert from 'node:assert/strict'
-import { cursors, moveSlider, play, Reader } from './reader.mjs'
+import { cursors, moveSlider, play, print, Reader } from './reader.mjs'
 
 const [chromium, packages, folder] = process.argv.slice(2)
 const reader = await Reader.start(chromium, packages)
@@ -22,6 +22,7 @@ await open('run/report', {}, async (page) => {
   assert.notEqual(await page.locator('.player .about').textContent(), first)
   await page.getByRole('button', { name: 'Dark' }).click()
   assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark')
+  await print(page)
 
   const svg = await reader.saved('Save “Return, predicted and real” as SVG')
   assert.match(svg, /^<svg [^]*Return, predicted and real[^]*<\/svg>$/)
@@ -33,7 +34,7 @@ await open('run/report', {}, async (page) => {
   await identified.scrollIntoViewIfNeeded()
   await identified.locator('.panel').first().waitFor()
   assert.equal(await identified.locator('.panel').count(), 4) // none for the intervals
-  assert.match(await identified.textContent(), /95 % interval/)
+  assert.match(await identified.textContent(), /95 % interval.*the robot’s own value/)
   const robust = page.locator('#robustness-by-parameter')
   await robust.scrollIntoViewIfNeeded()
   await robust.locator('.panel').first().waitFor()

@@ -128,11 +128,44 @@ test('a parameter is a choice where all its values are whole and none has an int
     truth,
     trials: rows.map(([quartile_1, median, quartile_3]) => ({ quartile_1, median, quartile_3 })),
   })
-  assert.ok(isChoiceOfRuns([group([[-1, -1, -1]]), group([[-1, 1.5, 4], [4, 4, 4], [null, null, null]])])) // prettier-ignore
-  assert.ok(!isChoiceOfRuns([group([[0.5, 0.5, 0.5], [1, 1, 1]])])) // prettier-ignore
-  assert.ok(!isChoiceOfRuns([group([[1, 1, 1], [1, 1.1, 1.25]])])) // prettier-ignore
+  assert.ok(
+    isChoiceOfRuns([
+      group([[-1, -1, -1]]),
+      group([
+        [-1, 1.5, 4],
+        [4, 4, 4],
+        [null, null, null],
+      ]),
+    ]),
+  )
+  assert.ok(
+    !isChoiceOfRuns([
+      group([
+        [0.5, 0.5, 0.5],
+        [1, 1, 1],
+      ]),
+    ]),
+  )
+  assert.ok(
+    !isChoiceOfRuns([
+      group([
+        [1, 1, 1],
+        [1, 1.1, 1.25],
+      ]),
+    ]),
+  )
   assert.ok(!isChoiceOfRuns([group([[1, 1, 1]]), group([[1, 1, 1]])]))
-  assert.ok(!isChoiceOfRuns([group([[1, 1, 1], [2, 2, 2]], 1.5)])) // prettier-ignore
+  assert.ok(
+    !isChoiceOfRuns([
+      group(
+        [
+          [1, 1, 1],
+          [2, 2, 2],
+        ],
+        1.5,
+      ),
+    ]),
+  )
 })
 
 test('what keeps the parameters of the prior is no figure', () => {

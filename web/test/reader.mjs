@@ -101,3 +101,25 @@ export async function play(page) {
   await page.getByText(/^0\.[1-9]\d \/ 2\.50 s$/).waitFor()
   await page.getByRole('button', { name: 'Pause' }).press('Enter')
 }
+
+/** Paper is light, has no controls, and cuts no table off; charts are no wider than it, and as before afterwards. */
+export async function print(page) {
+  const widths = () => page.locator('.panel svg').evaluateAll((all) => all.map((svg) => svg.width.baseVal.value))
+  const [before, { width, height }] = [await widths(), page.viewportSize()]
+  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')))
+  await page.setViewportSize({ width: 718, height })
+  await page.emulateMedia({ media: 'print' })
+  assert.ok((await widths()).every((one) => one <= 640))
+  const scheme = await page.evaluate(() => getComputedStyle(document.documentElement).colorScheme)
+  assert.equal(scheme, 'light')
+  assert.equal(await page.locator('button:visible, select:visible, nav:visible, input:visible').count(), 0)
+  const heights = await page
+    .locator('.scroll')
+    .evaluateAll((all) => all.map((one) => [one.scrollHeight, one.clientHeight]))
+  assert.ok(heights.every(([whole, shown]) => whole <= shown + 1))
+  assert.match(await page.locator('.printed').textContent(), /^Trial \d+ at \d/)
+  await page.emulateMedia({ media: 'screen' })
+  await page.setViewportSize({ width, height })
+  await page.evaluate(() => window.dispatchEvent(new Event('afterprint')))
+  assert.deepEqual(await widths(), before)
+}

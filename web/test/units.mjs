@@ -12,6 +12,7 @@ const { partFolds, partsOfRobot } = await source('part_folds')
 const { longestErrors } = await source('run_errors')
 const { outcome } = await source('limits')
 const { duration, number, percent } = await source('format')
+const { spans } = await source('run_tables')
 const { bestRow } = await source('trials')
 
 const named = (states, others) =>
@@ -212,4 +213,11 @@ test('numbers are written in one way', () => {
   assert.equal(number(null), '–')
   assert.equal(percent(0.3), '30 %')
   assert.equal(duration(0.00012), '10⁻⁴ s')
+})
+
+test('trials with the same note are one row', () => {
+  assert.equal(spans([1, 2, 3, 4]), '1–4')
+  assert.equal(spans([5, 1, 2, 2, 7, 8]), '1–2, 5, 7–8')
+  assert.equal(spans([3]), '3')
+  assert.equal(spans([]), '')
 })
