@@ -102,14 +102,20 @@ export async function play(page) {
   await page.getByRole('button', { name: 'Pause' }).press('Enter')
 }
 
+/** The width of A4 with margins of 1 cm, in px. */
+const PAPER = 718
+
 /** Paper is light, has no controls, and cuts no table off; charts are no wider than it, and as before afterwards. */
 export async function print(page) {
   const widths = () => page.locator('.panel svg').evaluateAll((all) => all.map((svg) => svg.width.baseVal.value))
+  const says = (event) => page.evaluate((event) => window.dispatchEvent(new Event(event)), event)
+  await says('beforeprint') // draws what the reader did not come to yet
+  await says('afterprint')
   const [before, { width, height }] = [await widths(), page.viewportSize()]
-  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')))
-  await page.setViewportSize({ width: 718, height })
+  await says('beforeprint')
+  await page.setViewportSize({ width: PAPER, height })
   await page.emulateMedia({ media: 'print' })
-  assert.ok((await widths()).every((one) => one <= 640))
+  assert.ok((await widths()).every((one) => one <= PAPER))
   const scheme = await page.evaluate(() => getComputedStyle(document.documentElement).colorScheme)
   assert.equal(scheme, 'light')
   assert.equal(await page.locator('button:visible, select:visible, nav:visible, input:visible').count(), 0)
@@ -120,6 +126,6 @@ export async function print(page) {
   assert.match(await page.locator('.printed').textContent(), /^Trial \d+ at \d/)
   await page.emulateMedia({ media: 'screen' })
   await page.setViewportSize({ width, height })
-  await page.evaluate(() => window.dispatchEvent(new Event('afterprint')))
+  await says('afterprint')
   assert.deepEqual(await widths(), before)
 }
