@@ -27,7 +27,7 @@ class Reopened {
   /// The value of `step`, whose failures say what can be done about them.
   template <class Step>
   auto attempt(Step step) -> decltype(step()) {
-    return with_causes(catalogue_, resolved().spec, step);
+    return with_causes(catalogue_, resolved().spec, folder_.path(), step);
   }
 
   /// Calls use(run); the policy's files are those of the trial that is asked for when it ends.

@@ -7,6 +7,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/memory.hpp"
+#include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/run_options.hpp"
 #include "rehearse/system/simulator.hpp"
 
@@ -29,19 +30,24 @@ auto named_failure(Index trial, const char* who, Step step, bool outside = false
   }
 }
 
-/// The value of `run`, whose failures say what can be done about them.
+/// The value of `run`, whose failures say what can be done about them; its folder keeps the last one.
 template <class Run>
-auto with_causes(const Catalogue& catalogue, const Spec& complete, Run run) -> decltype(run()) {
+auto with_causes(const Catalogue& catalogue, const Spec& complete, const std::filesystem::path& folder, Run run)
+    -> decltype(run()) {
+  const auto kept = [&](const RunFailed& error) {
+    RunFolder::keep_failure(folder, error.what());
+    return error;
+  };
   try {
     return run();
   } catch (const std::bad_alloc&) {
-    throw RunFailed(not_enough_memory(catalogue, complete), true);
-  } catch (const RunFailed&) {
-    throw;
+    throw kept(RunFailed(not_enough_memory(catalogue, complete), true));
+  } catch (const RunFailed& error) {
+    throw kept(error);
   } catch (const InvalidInput&) {
     throw;
   } catch (const std::runtime_error& error) {  // a file could not be written
-    throw RunFailed(error.what(), true);
+    throw kept(RunFailed(error.what(), true));
   }
 }
 

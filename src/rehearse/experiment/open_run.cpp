@@ -37,6 +37,7 @@ const learners::Proposal& checked(const learners::Proposal& proposal) {
 
 void OpenRun::begin(bool something_to_come) {
   parts_.open_store(path());
+  folder_.forget_failure();
   if (parts_.options().listener) parts_.options().listener->started(parts_.resolved(), path(), history_.done());
   publish_logs();
   publish();

@@ -118,7 +118,7 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
   const Resolved& resolved = participants.resolved();
   if (spec.trials > 0) require_plant(resolved);
   require_ready(resolved);
-  return with_causes(catalogue, resolved.spec, [&] {
+  return with_causes(catalogue, resolved.spec, path, [&] {
     const RunFolder folder = RunFolder::create(path, resolved.spec, resolved.comments, resolved.robot);
     return Run(participants, folder, {}).finish();
   });
@@ -140,7 +140,7 @@ RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& pat
     require_plant(participants.resolved());
     require_ready_again(participants.resolved());
   }
-  return with_causes(catalogue, participants.resolved().spec, [&] {
+  return with_causes(catalogue, participants.resolved().spec, path, [&] {
     folder.change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
     if (!is_over(extended, history)) folder.mark_unfinished();  // also where a change of its end was interrupted
     return Run(participants, folder, std::move(history)).finish();

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kCheckpoint = "checkpoint", *kDone = "done";
+constexpr const char *kCheckpoint = "checkpoint", *kDone = "done", *kFailed = "failed";
 
 fs::path trial_file(const fs::path& folder, Index trial) { return folder / fmt::format("trial-{:03}.csv", trial); }
 
@@ -220,5 +220,12 @@ void RunFolder::remove_after(const History& history) const {
 void RunFolder::mark_done(Index trials) const { files::write_file(path_ / kDone, fmt::format("{} trials\n", trials)); }
 
 void RunFolder::mark_unfinished() const { fs::remove(path_ / kDone); }
+
+void RunFolder::keep_failure(const fs::path& path, const std::string& why) noexcept try {
+  if (fs::exists(path / kCheckpoint)) files::write_file(path / kFailed, why + "\n");
+} catch (...) {  // the failure itself is the one to report
+}
+
+void RunFolder::forget_failure() const { fs::remove(path_ / kFailed); }
 
 }  // namespace rehearse::experiment

@@ -85,6 +85,10 @@ class RunFolder {
   void mark_done(Index trials) const;
   void mark_unfinished() const;
 
+  /// Why work on a run failed, for who comes later; nothing where that cannot be written.
+  static void keep_failure(const std::filesystem::path& path, const std::string& why) noexcept;
+  void forget_failure() const;
+
  private:
   RunFolder(std::filesystem::path path, Spec spec, files::FolderLock lock);
 

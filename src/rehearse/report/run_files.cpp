@@ -217,6 +217,9 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const Knowledge
     run["units"] = facts.units;
   }
   run["done"] = fs::exists(folder / "done");
+  if (fs::exists(folder / "failed"))
+    if (const auto why = problems.value_or_problem("failed", [&] { return read_text(folder / "failed"); }))
+      problems.add("failed", why->substr(0, why->find_last_not_of('\n') + 1));
   if (fs::exists(folder / "logs.csv")) run["logs"] = true;  // told before trial 1, whose model has learned from them
   Index trials = trajectories_in(folder);
   if (const auto table = problems.value_or_problem("trials.csv", [&] { return read_table(folder / "trials.csv"); })) {

@@ -86,7 +86,9 @@ TEST(Run, ARobotThatDidNotFinishItsLastEpisodeEndsTheRunAndTheTrialIsKept) {
   EXPECT_EQ(fake::message_of<RunFailed>([&] { start_run(fake::catalogue_with(brakeless), line_spec(2), folder, {}); }),
             "trial 2: the plant failed: the brake did not engage");
   EXPECT_EQ(lines_of(folder / "trials.csv").size(), 3u);
+  EXPECT_EQ(lines_of(folder / "failed").at(0), "trial 2: the plant failed: the brake did not engage");
   EXPECT_EQ(resume_run(fake::catalogue(), folder, {}, {}).trials, 2);
+  EXPECT_FALSE(fs::exists(folder / "failed"));
 }
 
 /// A learner all of whose rollouts fail.

@@ -47,6 +47,12 @@ TEST_F(RunFiles, ARunHasItsTablesAsColumns) {
   EXPECT_EQ(run["episodes"][1]["motion"]["predicted"], json::parse("[[null]]"));
 }
 
+TEST_F(RunFiles, ARunThatFailedSaysWhy) {
+  write_run(folder_);
+  write(folder_ / "failed", "trial 3: the plant failed: no answer\n");
+  EXPECT_EQ(problems_of(read_folder(folder_)), Lines{"failed: trial 3: the plant failed: no answer"});
+}
+
 TEST_F(RunFiles, WhatTheRobotHasToDoIsOfThoseWhoKnowIt) {
   write_run(folder_);
   const Report report = read_folder(folder_, {.archive = {}, .robot = [](const std::string& name) {
