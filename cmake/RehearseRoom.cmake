@@ -16,10 +16,10 @@ endif()
 
 option(REHEARSE_TOGETHER "Compile several sources at once; OFF for tools that look at one by one (scripts/lint)" ON)
 
-# Compiles the sources of a target several at once: what takes the compiler long in them are headers and templates, which
-# they share. Names of helpers are unique in the target.
+# Compiles the sources of a target at once: what takes the compiler long in them are headers and templates, which they
+# share. The largest takes 2.2 GB. Names of helpers are unique in the target.
 function(rehearse_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${REHEARSE_TOGETHER} UNITY_BUILD_BATCH_SIZE 16)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${REHEARSE_TOGETHER} UNITY_BUILD_BATCH_SIZE 0)
 endfunction()
 
 # The same, and optimises them little.

@@ -3,12 +3,12 @@
 namespace rehearse::identification {
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kRoundingOfStates = 1e-9;
 
 bool continues(const Dataset& data, Index row) {
   const Eigen::RowVectorXd start = data.states.row(row);
   const Eigen::RowVectorXd end = data.states.row(row - 1) + data.changes.row(row - 1);
-  return ((end - start).array().abs() <= kRounding * (1 + start.array().abs())).all();
+  return ((end - start).array().abs() <= kRoundingOfStates * (1 + start.array().abs())).all();
 }
 
 /// Calls visit(row, measurement before it) for each row.

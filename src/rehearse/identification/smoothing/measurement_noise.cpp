@@ -10,7 +10,7 @@ namespace {
 
 constexpr Index kMostRows = 64;
 constexpr int kMostSweeps = 10000;
-constexpr double kStill = 1e-10;
+constexpr double kConverged = 1e-10;
 
 /// dx × dx: the mean square of what a measurement's error in state d adds to change e through the state before.
 Matrix mean_square_slopes(const dynamics::DynamicsModel& model, const Dataset& data) {
@@ -43,7 +43,7 @@ Vector non_negative_least_squares(const Matrix& A) {
       farthest = std::max(farthest, std::abs(moved - x(d)));
       x(d) = moved;
     }
-    if (farthest < kStill) break;
+    if (farthest < kConverged) break;
   }
   return x;
 }
