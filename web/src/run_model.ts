@@ -71,7 +71,7 @@ export function keepsPrior({ trials, logs }: Pick<Run, 'trials' | 'logs'>): bool
   return names.every((name) => constant((trials[name] ?? []).filter(present)))
 }
 
-/** What stands in place of the figure then. */
+/** The sentence in place of the figure, where the prior's values were kept. */
 export function keptParameters(run: Run): Child {
   if (!keepsPrior(run)) return null
   const { trials, truth = {}, units = {} } = run

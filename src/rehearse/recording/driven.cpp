@@ -26,8 +26,9 @@ std::vector<Channel> channels_of(const Task& task, const Matrix& states) {
 
 std::vector<std::string> notes_on_driven(const Task& task, const Matrix& states, const std::string& file) {
   const std::vector<Channel> channels = channels_of(task, states);
+  const std::vector<const Channel*> rates = rates_of(channels, task);
   Problems jumps(file);
-  check_jumps(channels, task, jumps);
+  for (std::size_t s = 0; s < channels.size(); ++s) check_jumps(channels[s], rates[s], jumps);
   std::vector<std::string> notes = jumps.lines();
   const Index steps = states.rows() - 1;
   for (std::string& note : notes_on_rates(task, states.topRows(steps), states.bottomRows(steps)))

@@ -156,11 +156,6 @@ void check_jumps(const Channel& state, const Channel* rate, Problems& problems) 
   }
 }
 
-void check_jumps(const std::vector<Channel>& states, const Task& task, Problems& problems) {
-  const std::vector<const Channel*> rates = rates_of(states, task);
-  for (std::size_t s = 0; s < states.size(); ++s) check_jumps(states[s], rates[s], problems);
-}
-
 void compare_with_rate(const Channel& state, const Channel& rate, double dt_s, std::vector<std::string>& notes) {
   Vector expected(std::ssize(state.samples) - 1), changes(expected.size());
   for (std::size_t i = 1; i < state.samples.size(); ++i) {

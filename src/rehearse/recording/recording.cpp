@@ -72,9 +72,9 @@ void unwrap_angles(std::vector<Channel>& channels, const Task& task, std::vector
 void check_channels(Channels& channels, const Task& task, Problems& problems, std::vector<std::string>& notes) {
   unwrap_angles(channels.states, task, notes);
   unwrap_angles(channels.truths, task, notes);
-  check_jumps(channels.states, task, problems);
   const std::vector<const Channel*> rates = rates_of(channels.states, task);
   for (std::size_t s = 0; s < rates.size(); ++s) {
+    check_jumps(channels.states[s], rates[s], problems);
     if (rates[s]) compare_with_rate(channels.states[s], *rates[s], task.dt_s, notes);
     if (task.states[s].kind == StateKind::angle) look_for_turns(channels.states[s], notes);
   }

@@ -5,17 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "swinging.hpp"
+
 namespace rehearse::recording {
 namespace {
-
-constexpr double kStep_s = 0.05;
-
-Task swinging_wheel() {
-  Task task;
-  task.states = {{"q", "rad", StateKind::angle, "dq"}, {"dq", "rad/s"}};
-  task.dt_s = kStep_s;
-  return task;
-}
 
 /// A pendulum that swings with an amplitude, as a robot whose encoder has one turn measures it.
 Matrix swings(double amplitude) {
@@ -30,14 +23,21 @@ Matrix swings(double amplitude) {
 
 TEST(Driven, MotionOfARobotIsNotNoted) {
   for (const double amplitude : {0.0, 0.1, 4.0})
-    EXPECT_EQ(notes_on_driven(swinging_wheel(), swings(amplitude), "trial.csv"), std::vector<std::string>{})
+    EXPECT_EQ(notes_on_driven(swinging(StateKind::angle), swings(amplitude), "trial.csv"), std::vector<std::string>{})
         << amplitude;
+}
+
+TEST(Driven, AWheelThatIsMeasuredWithinOneTurnIsNotNoted) {
+  Matrix states(401, 2);
+  for (Index k = 0; k <= 400; ++k)
+    states.row(k) << std::remainder(3 * kStep_s * static_cast<double>(k), 2 * std::numbers::pi), 3;
+  EXPECT_EQ(notes_on_driven(swinging(StateKind::angle), states, "trial.csv"), std::vector<std::string>{});
 }
 
 TEST(Driven, AnAnswerThatIsWrongOnceIsNoted) {
   Matrix states = swings(0.1);
   states(15, 1) = 30;
-  const auto notes = notes_on_driven(swinging_wheel(), states, "trial.csv");
+  const auto notes = notes_on_driven(swinging(StateKind::angle), states, "trial.csv");
   ASSERT_FALSE(notes.empty());
   EXPECT_TRUE(notes[0].starts_with("trial.csv: row 17: dq jumps from ")) << notes[0];
 }
@@ -45,7 +45,7 @@ TEST(Driven, AnAnswerThatIsWrongOnceIsNoted) {
 TEST(Driven, ASensorThatIsDeadIsNoted) {
   Matrix states = swings(0.1);
   states.col(0).setZero();
-  EXPECT_EQ(notes_on_driven(swinging_wheel(), states, ""),
+  EXPECT_EQ(notes_on_driven(swinging(StateKind::angle), states, ""),
             std::vector<std::string>{"q is the same in all rows, while dq says that it changes"});
 }
 

@@ -6,28 +6,20 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/random.hpp"
+#include "swinging.hpp"
 
 namespace rehearse::recording {
 namespace {
-
-constexpr double kDt = 0.05;
-
-Task swinging() {
-  Task task;
-  task.states = {{"q", "rad", StateKind::plain, "dq"}, {"dq", "rad/s"}};
-  task.dt_s = kDt;
-  return task;
-}
 
 /// The notes on states q = sin(5 t) whose rate is wrong by a factor and by noise.
 std::vector<std::string> notes(double factor, double noise = 0, Index steps = 60) {
   Rng rng({.seed = 5});
   Matrix states(steps + 1, 2);
   for (Index k = 0; k <= steps; ++k) {
-    const double t = kDt * static_cast<double>(k);
+    const double t = kStep_s * static_cast<double>(k);
     states.row(k) << std::sin(5 * t), factor * 5 * std::cos(5 * t) + noise * rng.normal();
   }
-  return notes_on_rates(swinging(), states.topRows(steps), states.bottomRows(steps));
+  return notes_on_rates(swinging(StateKind::plain), states.topRows(steps), states.bottomRows(steps));
 }
 
 TEST(Rates, OtherUnitsAndSignsAreNoted) {
@@ -41,11 +33,11 @@ TEST(Rates, ColumnsThatAreNoMeasurementOrAnotherOneAreNoted) {
   constexpr Index kSteps = 240;
   Matrix states(kSteps + 1, 2);
   for (Index k = 0; k <= kSteps; ++k) {
-    const double t = kDt * static_cast<double>(k);
+    const double t = kStep_s * static_cast<double>(k);
     states.row(k) << std::sin(2 * t) + 1e-3 * rng.normal(), 2 * std::cos(2 * t) + 1e-2 * rng.normal();
   }
   const auto note = [&](const Matrix& of) {
-    const auto notes = notes_on_rates(swinging(), of.topRows(kSteps), of.bottomRows(kSteps));
+    const auto notes = notes_on_rates(swinging(StateKind::plain), of.topRows(kSteps), of.bottomRows(kSteps));
     return notes.empty() ? "" : notes.front();
   };
   EXPECT_EQ(note(states), "");
@@ -59,7 +51,7 @@ TEST(Rates, ColumnsThatAreNoMeasurementOrAnotherOneAreNoted) {
   wrong.col(0).tail(100).setConstant(states(140, 0));
   EXPECT_EQ(note(wrong).find("q stands still for "), 0U) << note(wrong);
   wrong = states;
-  for (Index k = 0; k <= kSteps; ++k) wrong(k, 1) = std::sin(3.3 * kDt * static_cast<double>(k));
+  for (Index k = 0; k <= kSteps; ++k) wrong(k, 1) = std::sin(3.3 * kStep_s * static_cast<double>(k));
   EXPECT_EQ(note(wrong), "q does not change as dq says, by no factor: is one of the columns another quantity?");
 }
 
@@ -67,12 +59,13 @@ TEST(Rates, NoiseAtRestAndSlowSensorsAreNotNoted) {
   Rng rng({.seed = 8});
   Matrix rest(401, 2), slow(401, 2);
   for (Index k = 0; k <= 400; ++k) {
-    const double t = kDt * static_cast<double>(k - k % 20);
+    const double t = kStep_s * static_cast<double>(k - k % 20);
     rest.row(k) << 0.1 * rng.normal(), 3 * rng.normal();
-    slow.row(k) << std::sin(0.5 * t), 0.5 * std::cos(0.5 * kDt * static_cast<double>(k));
+    slow.row(k) << std::sin(0.5 * t), 0.5 * std::cos(0.5 * kStep_s * static_cast<double>(k));
   }
   for (const Matrix& states : {rest, slow})
-    EXPECT_EQ(notes_on_rates(swinging(), states.topRows(400), states.bottomRows(400)), std::vector<std::string>{});
+    EXPECT_EQ(notes_on_rates(swinging(StateKind::plain), states.topRows(400), states.bottomRows(400)),
+              std::vector<std::string>{});
 }
 
 /// How late the rate of q = sin(5 t) seems to be, that is the mean of the last `differences` of readings (0: it is
@@ -82,21 +75,21 @@ double lateness(Index differences, double counts = 0, double noise = 0) {
   Rng rng({.seed = 6});
   Vector times(kRows), q(kRows), rate(kRows);
   for (Index k = 0; k < kRows; ++k) {
-    times(k) = kDt * static_cast<double>(k);
+    times(k) = kStep_s * static_cast<double>(k);
     q(k) = std::sin(5 * times(k)) + noise * rng.normal();
     if (counts > 0) q(k) = counts * std::round(q(k) / counts);
     rate(k) = differences == 0  ? 5 * std::cos(5 * times(k)) + 5 * noise * rng.normal()
               : k < differences ? 5
-                                : (q(k) - q(k - differences)) / (static_cast<double>(differences) * kDt);
+                                : (q(k) - q(k - differences)) / (static_cast<double>(differences) * kStep_s);
   }
   return lateness_s(times, q, rate);
 }
 
 TEST(Rates, ThatAreDifferencesOfReadingsAreLate) {
-  EXPECT_NEAR(lateness(1), 0.5 * kDt, 1e-12);
-  EXPECT_NEAR(lateness(2), kDt, 1e-12);
-  EXPECT_NEAR(lateness(3), 1.5 * kDt, 1e-12);
-  EXPECT_NEAR(lateness(2, 0.01), kDt, 1e-12);
+  EXPECT_NEAR(lateness(1), 0.5 * kStep_s, 1e-12);
+  EXPECT_NEAR(lateness(2), kStep_s, 1e-12);
+  EXPECT_NEAR(lateness(3), 1.5 * kStep_s, 1e-12);
+  EXPECT_NEAR(lateness(2, 0.01), kStep_s, 1e-12);
   EXPECT_EQ(lateness(0), 0) << "it is exact";
   EXPECT_EQ(lateness(0, 0.01), 0);
   EXPECT_EQ(lateness(0, 0, 0.05), 0) << "noise says nothing";
@@ -106,8 +99,9 @@ TEST(Rates, ThatAreNoisyAreNotContradicted) { EXPECT_EQ(notes(1, 4, 400).size(),
 
 TEST(Rates, NothingIsSaidOfARobotAtRest) {
   const Matrix still = Matrix::Zero(10, 2);
-  EXPECT_EQ(notes_on_rates(swinging(), still, still).size(), 0U);
-  EXPECT_EQ(notes_on_rates(swinging(), still.topRows(0), still.topRows(0)).size(), 0U) << "nor of no step";
+  EXPECT_EQ(notes_on_rates(swinging(StateKind::plain), still, still).size(), 0U);
+  EXPECT_EQ(notes_on_rates(swinging(StateKind::plain), still.topRows(0), still.topRows(0)).size(), 0U)
+      << "nor of no step";
 }
 
 }  // namespace
