@@ -65,7 +65,7 @@ void print_groups(const Campaign& campaign) {
     rows.push_back({label_of(campaign.plan.groups[i]),
                     fmt::format("{}/{}", campaign.count(RunState::done, i), campaign.plan.seeds.size()),
                     reached ? rate_text(trials.back().solved_by) : "-",
-                    reached ? numbers_text(trials.back().total_reward) : "-",
+                    reached && trials.back().runs > 0 ? numbers_text(trials.back().total_reward) : "-",
                     trials.empty() || trials.back().solved ? first_successes(campaign, i) : "-"});
   }
   put("\n");
@@ -73,11 +73,19 @@ void print_groups(const Campaign& campaign) {
   for (const auto& [name, reason] : campaign.plan.missing) put("  missing: {}\n", reason);
 }
 
+void print_failures(const Campaign& campaign, bool unusable, const char* headline) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+    const RunOutcome& run = campaign.runs[i];
+    if (run.state == RunState::failed && run.unusable == unusable)
+      lines.push_back(fmt::format("  {}: {}\n", campaign.plan.runs[i].name, run.reason));
+  }
+  if (!lines.empty()) put("\n{}\n{}", headline, fmt::join(lines, ""));
+}
+
 void print_failures(const Campaign& campaign) {
-  if (campaign.count(RunState::failed) > 0) put("\nFailed; tried again when the campaign is started again\n");
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i)
-    if (campaign.runs[i].state == RunState::failed)
-      put("  {}: {}\n", campaign.plan.runs[i].name, campaign.runs[i].reason);
+  print_failures(campaign, false, "Failed; tried again when the campaign is started again");
+  print_failures(campaign, true, "Failed, since their folders cannot be used; removed ones are begun anew");
 }
 
 const char* word_for(Verdict verdict) { return verdict == Verdict::fail ? "FAIL" : to_text(verdict); }

@@ -87,7 +87,7 @@ void print_summary(const Summary& summary, double task_s, double episode_s) {
   put("return         median {:.4g}, quartiles {:.4g} and {:.4g}, all from {:.4g} to {:.4g}\n", median, low, high, min,
       max);
   if (min == max && summary.returns.size() > 1)
-    put("all episodes are alike: this plant has no random start and no noise, so one tells as much\n");
+    put("all returns are equal; where the plant has no random start and no noise, one episode tells as much\n");
 }
 
 /// Prints the rate solved at the end of the episode by changed parameter; the median return if the task has no test of
@@ -96,10 +96,17 @@ void print_robustness(const std::vector<experiment::Changed>& all) {
   const bool can_say = all.front().summary.solved_at_end.has_value();
   put("{} by the factor of one parameter at a time\n{:12}", can_say ? "solved at the end, in %," : "median return", "");
   for (const double factor : experiment::kFactors) put("{:>9g}", factor);
-  for (const experiment::Changed& each : all) {
-    if (each.factor == experiment::kFactors.front()) put("\n{:12}", each.parameter);
-    const double value = can_say ? 100 * each.summary.solved_at_end->value() : statistics::median(each.summary.returns);
-    put("{:>9.4g}", value);
+  for (auto each = all.begin(); each != all.end();) {
+    const std::string& parameter = each->parameter;
+    put("\n{:12}", parameter);
+    for (const double factor : experiment::kFactors) {
+      if (each == all.end() || each->parameter != parameter || each->factor != factor) {
+        put("{:>9}", "-");  // beyond the bounds of its option
+        continue;
+      }
+      put("{:>9.4g}", can_say ? 100 * each->summary.solved_at_end->value() : statistics::median(each->summary.returns));
+      ++each;
+    }
   }
   put("\n");
 }

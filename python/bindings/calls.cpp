@@ -53,12 +53,27 @@ std::string type_of(const py::object& result) {
 
 bool is_masked(const py::object& result) { return py::hasattr(result, "filled"); }
 
-/// NumPy would take None for NaN.
-bool has_none(const py::array& array) {
-  if (array.dtype().kind() != 'O') return false;
-  for (const py::handle each : array.attr("flat"))
-    if (each.is_none()) return true;
-  return false;
+/// The name of what NumPy would take for numbers; empty: it has numbers alone.
+std::string no_numbers(const py::array& array) {
+  switch (array.dtype().kind()) {
+    case 'c':
+      return "complex numbers";
+    case 'S':
+    case 'U':
+      return "texts";
+    case 'm':
+    case 'M':
+      return "times";
+    case 'O':
+      break;
+    default:
+      return "";
+  }
+  for (const py::handle each : array.attr("flat")) {
+    if (each.is_none()) return "None among its numbers";
+    if (py::isinstance<py::str>(each) || py::isinstance<py::bytes>(each)) return "texts";
+  }
+  return "";
 }
 
 /// Raises ValueError where NumPy makes no array of a result. What is masked is NaN.
@@ -68,8 +83,8 @@ Array array_of(const py::object& result, const std::string& name) {
   if (result.is_none()) refuse(name, "None", kWanted);
   const py::array given = py::array::ensure(
       is_masked(result) ? result.attr("astype")("float64").attr("filled")(py::float_(std::nan(""))) : result);
-  if (given && given.dtype().kind() == 'c') refuse(name, "complex numbers", kWanted);
-  if (given && has_none(given)) refuse(name, "None among its numbers", kWanted);
+  if (given)
+    if (const std::string what = no_numbers(given); !what.empty()) refuse(name, what, kWanted);
   if (const Array array = Array::ensure(given)) return array;
   refuse(name, type_of(result), kWanted);
 }
@@ -149,7 +164,11 @@ void call_between(const Callable& of, const std::function<void(const py::object&
     }
   } catch (const py::error_already_set& error) {
     of.failure->keep(error, of.name);
-    throw system::Unavailable(fmt::format("{}: {}", of.name, error.what()));
+    const std::string why =
+        fmt::format("{}: {}: {}", of.name, py::str(error.type().attr("__name__")).cast<std::string>(),
+                    py::str(error.value()).cast<std::string>());
+    if (error.matches(PyExc_KeyboardInterrupt)) throw system::Stopped(why);
+    throw system::Unavailable(why);
   }
 }
 

@@ -18,6 +18,8 @@ from .arrays import Array
 
 def whole(name: str, value: Any, least: int = -(2**63), most: int = 2**63 - 1) -> int:
     try:
+        if isinstance(value, (bool, np.bool_)):  # Python takes them for 0 and 1
+            raise TypeError
         number = index(value)
     except TypeError:
         raise TypeError(f"{name} = {value!r}, must be a whole number") from None

@@ -22,8 +22,7 @@ class Environment:
 
     `reset` may take a seed, and returns an observation or (observation, info). `step` returns an observation, four
     things (observation, reward, done, info), or five (…, terminated, truncated, info). Its reward is not used: a reward
-    must be known for states that nobody has been in. An angle that it keeps inside of one turn is counted on, from the
-    turn of the robot's start. `end`, where it has one, is called after each episode.
+    must be known for states that nobody has been in. `end`, where it has one, is called after each episode.
     """
 
     def __init__(self, environment: Any, observe: Union[Callable[[Any], Any], None], task: Task) -> None:
@@ -35,9 +34,6 @@ class Environment:
         self._task = task
         self._step = 0
         self._over = False  # the environment's own limit of time was reached
-        self._angles = np.array([state.angle for state in task.states], dtype=bool)
-        self._last: Union[Array, None] = None  # as it was given
-        self._turns = np.zeros(len(task.states))
         space = getattr(environment, "action_space", None)
         self._shape = getattr(space, "shape", None)
         self._dtype = getattr(space, "dtype", None)
@@ -48,8 +44,7 @@ class Environment:
             task.compare_actions(space)
 
     def reset(self, seed: int) -> Array:
-        self._step, self._over, self._last = 0, False, None
-        self._turns = np.zeros(len(self._task.states))
+        self._step, self._over = 0, False
         try:
             result = self._environment.reset(seed=seed)
         except TypeError as error:
@@ -123,23 +118,7 @@ class Environment:
         if self._task.states and len(given) != len(self._task.states):
             raise ValueError(f"{'observe' if self._observe else 'the environment'} gives {len(given)} numbers {when}, must be "
                              f"the states {', '.join(s.name for s in self._task.states)}: observe=f(observation) says how")
-        return self._continued(given) if self._angles.any() else given
-
-    def _continued(self, given: Array) -> Array:
-        """Angles without jumps: a turn more or less where one leaves [-π, π], or [0, 2π], and comes in on the other side."""
-        last = given if self._last is None else self._last
-        both = np.array([last, given])
-        little = 1e-6  # the bounds in single precision are up to 2e-7 beyond
-        inside = [((both >= low - little) & (both <= low + 2 * math.pi + little)).all(axis=0) for low in (-math.pi, 0.0)]
-        wrapped = self._angles & (inside[0] | inside[1])
-        if self._last is None:
-            starts = np.array([state.start for state in self._task.states])
-            self._turns = np.where(wrapped, np.round((starts - given) / (2 * math.pi)), 0.0)
-        jump = given - last
-        self._turns -= np.where(wrapped & (np.abs(jump) > math.pi), np.sign(jump), 0.0)
-        self._last = given
-        continued: Array = given + 2 * math.pi * self._turns
-        return continued
+        return given
 
 
 @dataclass(frozen=True)

@@ -65,7 +65,9 @@ class GaussianProcess:
     def condition(self, X: npt.ArrayLike, y: npt.ArrayLike, log_hyperparameters: npt.ArrayLike) -> GaussianProcess:
         """The same without a fit: E × (D + 2) logarithms of lengths, σ_f and σ_n."""
         X, Y, one = _arrays(X, y)
-        logs = np.atleast_2d(np.asarray(log_hyperparameters, float))
+        logs = np.atleast_2d(numbers("log_hyperparameters", log_hyperparameters))
+        if logs.ndim > 2:
+            raise _core.InvalidInput(f"log_hyperparameters has {logs.ndim} dimensions, must be E × (D + 2)")
         return self._knowing(_core.condition_gp(X, Y, logs, self.tolerance), X, Y, one)
 
     @overload
@@ -98,6 +100,8 @@ class GaussianProcess:
         """R² of the predicted means, 1 at best, as scikit-learn has it: of several outputs the mean. Targets that are all
         the same have 1 where they are predicted exactly, else 0."""
         targets, _ = _targets(y)
+        if len(targets) == 0:
+            raise _core.InvalidInput("y has no rows, must have one or more")
         means = self._fitted.predict_mean(_inputs(X))
         if targets.shape != means.shape:
             raise _core.InvalidInput(f"y is {targets.shape[0]} × {targets.shape[1]}, must be {means.shape[0]} × "
@@ -223,6 +227,8 @@ def _targets(y: npt.ArrayLike) -> tuple[Array, bool]:
     targets = numbers("y", y)
     if targets.ndim == 0:
         raise _core.InvalidInput("y is a number, must be n, or n × E")
+    if targets.ndim > 2:
+        raise _core.InvalidInput(f"y has {targets.ndim} dimensions, must be n, or n × E")
     return np.asfortranarray(targets.reshape(len(targets), math.prod(targets.shape[1:]))), targets.ndim == 1
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import mapping, number, read_text, texts, whole
+from .checks import mapping, number, read_text, text, texts, whole
 from .environment import Task, environment_maker, is_environment, is_real
 from .parts import (Action, Body, Distance, EpisodeFunction, Limit, Model, State, StateFunction, StepFunction,
                     Success)
@@ -187,10 +187,10 @@ class Robot:
         dt_s = getattr(model.change, "dt_s", None)  # of rk4
         if dt_s is not None and dt_s != self._dt_s:
             raise _core.InvalidInput(f"{name}: rk4 was given dt_s = {dt_s}, the robot {self._dt_s}")
-        how: dict[str, Any] = {"rate": dict(model.rates), "define": dict(model.define)}
+        how: dict[str, Any] = {"rate": dict(model.rates), "define": dict(mapping(f"{name}: define", model.define))}
         if model.change is not None:
             how = {"function": name}
-            self._functions.append(("add_dynamics", name, model.change, list(model.parameters)))
+            self._functions.append(("add_dynamics", name, model.change, [text(f"{name}: a name of parameters", key) for key in model.parameters]))
         return table(f"[dynamics.{value(name)}]", {**how, "parameters": _parameters(name, model)})
 
     def _plant(self, plant: Any, observe: Any, task: Task, taken: Sequence[str],
@@ -209,7 +209,8 @@ class Robot:
             name = "the plant" if "plant" in taken else "plant"  # no prior has a name with a space
             return [self._dynamics(name, plant),
                     table("[plant]", {"dynamics": name, "measurement_noise": given,
-                                      "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
+                                      "delay_s": dict(mapping("plant: delay_s", plant.delay_s)),
+                                      "lag_s": dict(mapping("plant: lag_s", plant.lag_s))})]
         self.one_at_a_time = is_environment(plant) or is_real(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": given})]

@@ -169,7 +169,7 @@ class Run:
 
     def replay(self, trial: int, out: Union[PathLike, None] = None) -> Path:
         """Writes a page that shows how the robot moved in a trial, by default replay-003.html in the folder."""
-        return write_replay(self.folder, whole("trial", trial), out)
+        return write_replay(self.folder, self._done(trial), out)
 
     def plot(self, trial: Union[int, None] = None) -> Any:
         """A Matplotlib figure: returns by trial, and the states of one of them as predicted and as they were."""
@@ -214,12 +214,16 @@ class Run:
     def _table_of(self, trial: int, kind: str) -> Array:
         given = whole("trial", trial)
         path = self.folder / kind / f"trial-{given:03}.csv"
-        if path.exists():
+        if path.exists():  # of a trial that was asked for there is a prediction
             return read_csv(path, whole=("particles",) if kind == "predictions" else ())
-        done = len(self.trials)
+        self._done(given)
+        raise _core.InvalidInput(f"trial {given} of {self.folder} has no {kind}")
+
+    def _done(self, trial: int) -> int:
+        given, done = whole("trial", trial), len(self.trials)
         if not 1 <= given <= done:
             raise _core.InvalidInput(f"trial = {given}, must be between 1 and {done}, the trials that are done")
-        raise _core.InvalidInput(f"trial {given} of {self.folder} has no {kind}")
+        return given
 
     def _describe(self) -> dict[str, Any]:
         return dict(_core.describe(self._core, str(self.folder)))

@@ -101,15 +101,19 @@ class MapElites(_Search):
     """MAP-Elites (Mouret 2015): the best solution of each niche of a space of descriptors. It MAXIMISES.
 
     bounds: (low, high) of each parameter of a solution. descriptor_bounds: of each descriptor. niches: of a centroidal
-    Voronoi tessellation; bins: instead, of a grid, one number a descriptor. options: batch=512, initial=1024, ….
+    Voronoi tessellation, 1000 by default; bins: instead, of a grid, one number a descriptor. options: batch=512, initial=1024, ….
     """
 
     def __init__(self, bounds: npt.ArrayLike, descriptor_bounds: npt.ArrayLike, *,
-                 niches: int = 1000, bins: Union[Sequence[int], None] = None, seed: int = 1, **options: Any) -> None:
+                 niches: Union[int, None] = None, bins: Union[Sequence[int], None] = None, seed: int = 1, **options: Any) -> None:
         texts = {name: option_text(value) for name, value in options.items()}
+        if niches is not None and bins is not None:
+            raise _core.InvalidInput("niches and bins: only one of them at a time")
         grid = [] if bins is None else [whole("bins", each) for each in np.atleast_1d(np.asarray(bins, dtype=object))]
+        if bins is not None and not grid:
+            raise _core.InvalidInput("bins is empty, must be a number for each descriptor")
         self._core = _core.MapElites(_pairs("bounds", bounds), _pairs("descriptor_bounds", descriptor_bounds), grid,
-                                     whole("niches", niches), _seed(seed), texts)
+                                     whole("niches", 1000 if niches is None else niches), _seed(seed), texts)
 
     def ask(self) -> Array:
         """Solutions to evaluate, batch × P; the same until `tell`."""
@@ -117,7 +121,10 @@ class MapElites(_Search):
 
     def tell(self, performances: npt.ArrayLike, descriptors: npt.ArrayLike) -> None:
         """What they were worth (batch), and how they did it (batch × D)."""
-        self._core.tell(vector("performances", performances), np.atleast_1d(numbers("descriptors", descriptors)))
+        given = np.atleast_1d(numbers("descriptors", descriptors))
+        if given.ndim > 2:
+            raise _core.InvalidInput(f"descriptors has {given.ndim} dimensions, must be batch × D")
+        self._core.tell(vector("performances", performances), given)
 
     @property
     def elites(self) -> dict[str, Array]:

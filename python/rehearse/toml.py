@@ -35,7 +35,7 @@ def value(given: Any) -> str:
 
 def quoting(text: str, source: str, message: str) -> str:
     """A message in which the lines of a text are quoted that it names: nobody may have seen the text."""
-    lines = ["", *text.splitlines()]
+    lines = ["", *text.split("\n")]
     return re.sub(rf"^({re.escape(source)}: line (\d+)): ", lambda at: f"{at[1]}, `{lines[int(at[2])]}`: ", message,
                   flags=re.MULTILINE)
 

@@ -320,7 +320,7 @@ def test_a_run_that_fails_does_not_stop_the_others(tmp_path):
     events = []
     done = campaign(cart(), tmp_path / "out", progress=events.append)
     assert done.runs["state"].tolist() == ["failed", "done"] and "spec.toml" in done.runs["reason"][0]
-    assert "skipped: cart-gp-mi-light-1" in events[0]["notes"][0]
+    assert "cannot be used: cart-gp-mi-light-1" in events[0]["notes"][0]
     assert "cart-gp-mi-light-1 failed:" in done._repr_html_() and "1 failed" in repr(done)
 
 

@@ -7,7 +7,6 @@ import pytest
 from robots import QUICK, Environment, cart, change
 
 import rehearse
-from rehearse import environment
 
 
 def learn(robot, out, **more):
@@ -56,22 +55,6 @@ def test_angles_begin_in_the_turn_of_the_start(tmp_path):
                            actions=[rehearse.Action("u", (-1, 1))], reward="exp(-(angle - pi)^2)", plant=Hanging())
     run = learn(robot, tmp_path / "run", learner="black-drops")
     assert np.abs(run.trajectory(1)["angle"] - np.pi).max() < 0.02
-
-
-def test_angles_of_single_precision_are_counted_on():
-    """The π of single precision is larger than π."""
-
-    class Single:
-        def reset(self, seed=None):
-            return np.array([0.0, np.pi], dtype=np.float32)
-
-        def step(self, action):
-            return np.array([0.0, 0.02 - np.pi], dtype=np.float32)
-
-    states = [rehearse.State("rate"), rehearse.State("angle", angle=True, start=np.pi)]
-    played = environment.Environment(Single(), None, environment.Task(3, states))
-    assert played.reset(1)[1] == np.float32(np.pi) > np.pi
-    np.testing.assert_allclose(played.step(np.zeros(1))[0], [0, np.pi + 0.02], atol=1e-6)
 
 
 def test_a_real_robot_is_made_once_at_a_time_however_it_is_made():

@@ -247,6 +247,12 @@ def test_what_pieces_cannot_use_is_refused_by_name():
         rehearse.Cmaes([0.5], 0.3, seed=-1)
     with pytest.raises(TypeError, match="bins = 3.5, must be a whole number"):
         rehearse.MapElites([(0, 1)], [(0, 1)], bins=[3.5])
+    with pytest.raises(rehearse.InvalidInput, match="bins is empty, must be a number for each descriptor"):
+        rehearse.MapElites([(0, 1)], [(0, 1)], bins=[])
+    with pytest.raises(rehearse.InvalidInput, match="niches and bins: only one of them at a time"):
+        rehearse.MapElites([(0, 1)], [(0, 1)], bins=[3], niches=7)
+    with pytest.raises(TypeError, match="seed = True, must be a whole number"):
+        rehearse.Cmaes([0.5], 0.3, seed=True)
     with pytest.raises(rehearse.InvalidInput, match=r"bounds is an array of shape \(2,\), must be n × 2"):
         rehearse.Cmaes([0.5], 0.3, bounds=(0, 1))
 
@@ -258,11 +264,18 @@ def test_data_that_are_no_numbers_are_refused_by_name():
     for wrong, message in (((np.zeros((0, 2)), []), "^X has no rows, must have one or more$"),
                            ((X, np.where(np.arange(10) == 3, np.nan, y)), "^y has nan in row 3, must be finite$"),
                            ((np.ma.masked_array(X, X == X[4]), y), "^X has nan in row 4, must be finite$"),
+                           ((X, y.reshape(-1, 1, 1)), "^y has 3 dimensions, must be n, or n × E$"),
                            ((X + 1j, y), "^X has complex numbers, must have real ones$")):
         with pytest.raises(rehearse.InvalidInput, match=message):
             gp.fit(*wrong)
         with pytest.raises(rehearse.InvalidInput, match=message):
             gp.condition(*wrong, np.zeros((1, 4)))
+    with pytest.raises(rehearse.InvalidInput, match="^log_hyperparameters has 3 dimensions"):
+        gp.condition(X, y, np.zeros((1, 1, 4)))
+    with pytest.raises(rehearse.InvalidInput, match="^y has no rows"):
+        gp.condition(X, y, np.zeros((1, 4))).score(np.zeros((0, X.shape[1])), [])
+    with pytest.raises(rehearse.InvalidInput, match="^descriptors has 3 dimensions"):
+        archive.tell(np.zeros(4), np.zeros((4, 1, 1)))
     for tell in (lambda: search.tell(np.zeros(4) + 1j), lambda: archive.tell(np.zeros(4), np.zeros((4, 1)) + 1j)):
         with pytest.raises(rehearse.InvalidInput, match="has complex numbers"):
             tell()

@@ -129,7 +129,7 @@ def test_data_frames_and_figures(tmp_path):
 def test_a_trial_is_replayed(tmp_path):
     run = learn(cart(bodies=[rehearse.Body("cart", ("position", "0"), ("position", "0.1"))]), tmp_path / "run", trials=1)
     assert run.replay(1) == run.folder / "replay-001.html" and (run.folder / "replay-001.html").stat().st_size > 10000
-    with pytest.raises(rehearse.InvalidInput, match="trial 2 is not in"):
+    with pytest.raises(rehearse.InvalidInput, match="trial = 2, must be between 1 and 1"):
         run.replay(2)
 
 
@@ -192,11 +192,14 @@ def test_an_exception_of_a_function_comes_out_and_the_run_goes_on(tmp_path):
 
 @pytest.mark.parametrize("wrong, message", [
     (lambda x, u, n: np.zeros(3), r"reward returned an array of shape \(3,\), must be \(\d+,\)"),
-    (lambda x, u, n: "much", "reward returned str, must be an array of numbers"),
+    (lambda x, u, n: "much", "reward returned texts, must be an array of numbers"),
     (lambda x, u: np.zeros(len(x)), "positional arguments"),
     (lambda x, u, n: None, "reward returned None, must be an array of numbers"),
     (lambda x, u, n: n[:, 1] + 1j, "reward returned complex numbers, must be an array of numbers"),
     (lambda x, u, n: [None, *n[1:, 1]], "reward returned None among its numbers, must be an array of numbers"),
+    (lambda x, u, n: n[:, 1].astype(str), "reward returned texts, must be an array of numbers"),
+    (lambda x, u, n: ["1", *n[1:, 1]], "reward returned texts, must be an array of numbers"),
+    (lambda x, u, n: np.full(len(n), "2020-01-01", "M8[s]"), "reward returned times, must be an array of numbers"),
 ])
 def test_wrong_results_say_what_they_must_be(tmp_path, wrong, message):
     with pytest.raises((ValueError, TypeError), match=message):
@@ -282,6 +285,16 @@ rehearse.learn(cart(), trials=3, out={str(tmp_path / "run")!r}, threads=2, optio
     rest = rehearse.resume(tmp_path / "run", cart(), progress=None)
     whole = learn(cart(), tmp_path / "whole", trials=3, options={"search.race.max_evaluations": 30000})
     assert files(rest) == files(whole)
+
+
+def test_control_c_in_a_function_of_the_robot_is_no_failure(tmp_path):
+    def stopped(states, actions, mass, friction):
+        raise KeyboardInterrupt
+
+    prior = rehearse.Model(stopped, parameters={"mass": 1.0, "friction": 0.3})
+    with pytest.raises(KeyboardInterrupt):
+        learn(cart(priors={"light": prior}), tmp_path / "run")
+    assert not (tmp_path / "run/failed").exists()
 
 
 def test_ask_and_tell_are_learn(tmp_path):

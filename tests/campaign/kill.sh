@@ -55,6 +55,7 @@ echo "format = 7" >one/runs/pendubot-mi-misleading-3/spec.toml
 for words in "skipped: runs/notes.txt" "misleading-2: .*the checkpoint is truncated or damaged" "misleading-3: .*spec.toml"; do
   grep -q "$words" output || fail "damage is not named ($words): $(cat output)"
 done
+grep -q "removed ones are begun anew" output || fail "it is not said what helps: $(cat output)"
 [ "$(wc -l <one/campaign.csv)" = 9 ] || fail "campaign.csv of the rest has $(wc -l <one/campaign.csv) lines"
 
 # Ctrl-C: 130, and it can be continued.

@@ -263,7 +263,9 @@ export function stepsOf(prediction: Columns): number {
 export function withEnds(episode: Episode): Episode {
   const { motion, prediction } = episode
   if (!motion?.predicted || !prediction) return episode
-  return { ...episode, motion: { ...motion, predicted: motion.predicted.slice(0, stepsOf(prediction)) } }
+  const end = stepsOf(prediction)
+  const predicted = motion.predicted.map((frame, i) => (i < end ? frame : frame.map(() => null)))
+  return { ...episode, motion: { ...motion, predicted } }
 }
 
 /** Position of the largest number, the first of equals; 0 without any. */

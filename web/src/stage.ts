@@ -3,6 +3,8 @@ import { isSolid, present, type LineMotion, type Motion } from './data'
 import { REAL, PREDICTED } from './colours'
 import { s } from './dom'
 
+const MOST_MARKS = 500 // along the way: some robots go far
+
 export interface Stage {
   element: Element
   /** Shows a motion of its own kind at a frame, which may lie between two. */
@@ -28,13 +30,14 @@ export function stage(motions: LineMotion[]): Stage {
     role: 'img',
     'aria-label': 'The robot at the time of the slider',
   })
-  const tick = [0.1, 0.2, 0.5, 1, 2, 5, 10].find((candidate) => candidate > 0.12 * size) ?? 20
+  const length = roundAbove(0.12 * size)
+  const tick = Math.max(length, roundAbove((bounds.right - bounds.left) / MOST_MARKS))
   const goal = s('g', { class: 'goal' })
   const trail = s('polyline', { class: 'trail', stroke: REAL })
   const predicted = s('g', { opacity: 0.45 })
   const real = s('g')
   const world = s('g', {}, ground(bounds, size, tick), goal, trail, predicted, real)
-  element.append(world, scaleBar(bounds, size, tick, motions[0]?.unit ?? 'm'))
+  element.append(world, scaleBar(bounds, size, length, motions[0]?.unit ?? 'm'))
 
   return {
     element,
@@ -48,6 +51,12 @@ export function stage(motions: LineMotion[]): Stage {
       trail.setAttribute('points', trailOf(motion, frame))
     },
   }
+}
+
+/** The next of 1, 2, 5, 10, 20, … and of 0.5, 0.2, … */
+function roundAbove(least: number): number {
+  const decade = 10 ** Math.floor(Math.log10(least || 1))
+  return ([1, 2, 5].find((digit) => digit * decade > least) ?? 10) * decade
 }
 
 /** The left end of what is seen: the goal in the middle, unless the robot would leave. */

@@ -14,6 +14,7 @@ const { outcome } = await source('limits')
 const { duration, number, percent } = await source('format')
 const { spans } = await source('run_tables')
 const { bestRow } = await source('trials')
+const { withEnds } = await source('data')
 
 const named = (states, others) =>
   Object.fromEntries(partsOf(states, others).map((part) => [part.name, [...part.states, ...part.others].join(', ')]))
@@ -220,4 +221,10 @@ test('trials with the same note are one row', () => {
   assert.equal(spans([5, 1, 2, 2, 7, 8]), '1–2, 5, 7–8')
   assert.equal(spans([3]), '3')
   assert.equal(spans([]), '')
+})
+
+test('a predicted robot is not drawn once its prediction has ended', () => {
+  const frames = [[0], [1], [2]]
+  const { motion } = withEnds({ motion: { frames, predicted: frames }, prediction: { particles: [10, 10, 4] } })
+  assert.deepEqual(motion.predicted, [[0], [1], [null]])
 })

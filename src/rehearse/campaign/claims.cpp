@@ -100,6 +100,7 @@ class Judge {
     const double sign = measure.metric == Metric::first_success ? -1 : 1;
     std::vector<double> differences;
     for (std::size_t seed = 0; seed < seeds(); ++seed) {
+      const Index failed_before = failed_;
       std::vector<double> by_group;
       for (std::size_t i = 0; i < part_.against.size(); ++i) {
         const auto ours = value(part_.groups[i], seed, measure), theirs = value(part_.against[i], seed, measure);
@@ -107,6 +108,7 @@ class Judge {
       }
       if (!by_group.empty() && by_group.size() == part_.groups.size())
         differences.push_back(statistics::mean(by_group));
+      failed_ = std::min(failed_, failed_before + 1);  // pairs, not their runs
     }
     result_.of = part_.against.empty() ? 0 : static_cast<Index>(seeds());
     return differences;
@@ -176,7 +178,8 @@ class Judge {
     if (!planned_.missing.empty()) return planned_.missing;
     const char* what = planned_.claim.comparison ? "pairs" : "runs";
     if (cannot_say_) return "the scenario cannot say what is solved";
-    if (result_.runs < result_.of && failed_ > 0) return fmt::format("{} runs failed and have no such value", failed_);
+    if (result_.runs < result_.of && failed_ > 0)
+      return fmt::format("{} of {} {} without such a value, since runs failed", failed_, result_.of, what);
     if (result_.runs < result_.of) return fmt::format("{} of {} {} are done", result_.runs, result_.of, what);
     if (std::isinf(result_.interval.low)) return fmt::format("an interval needs 6 {}", what);
     return "the interval does not decide";
@@ -187,7 +190,7 @@ class Judge {
   const ClaimPart& part_;
   PartResult result_;
   std::vector<std::string> required_;
-  Index failed_ = 0;         // runs without a value, now and for ever
+  Index failed_ = 0;         // runs, or pairs of them, without a value, now and for ever
   bool cannot_say_ = false;  // the scenario has no test of success
 };
 

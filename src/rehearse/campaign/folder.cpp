@@ -221,6 +221,7 @@ RunOutcome CampaignFolder::read(const PlannedRun& run) const {
   } catch (const fs::filesystem_error& error) {
     outcome.fail(fmt::format("cannot read {}: {}", error.path1().string(), error.code().message()));
   }
+  outcome.unusable = true;
   return outcome;
 }
 

@@ -33,8 +33,7 @@ std::vector<std::string> Campaign::remarks() const {
   for (const auto& [name, reason] : plan.missing) lines.push_back(fmt::format("missing: {}", reason));
   for (const auto& [path, reason] : skipped) lines.push_back(fmt::format("skipped: {}: {}", path, reason));
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (runs[i].state == RunState::failed)
-      lines.push_back(fmt::format("skipped: {}: {}", plan.runs[i].name, runs[i].reason));
+    if (runs[i].unusable) lines.push_back(fmt::format("cannot be used: {}: {}", plan.runs[i].name, runs[i].reason));
   return lines;
 }
 

@@ -15,6 +15,7 @@ enum class RunState { unfinished, done, failed };
 struct RunOutcome {
   RunState state = RunState::unfinished;
   std::string reason;                          // why it failed, in one line
+  bool unusable = false;                       // failed since its folder cannot be read, and is not tried again
   files::Table trials;                         // its trials.csv, up to as many trials as are planned
   std::vector<double> interaction_s, returns;  // of these, by trial
   std::vector<std::optional<bool>> solved;     // empty: the scenario cannot say
@@ -50,8 +51,8 @@ struct Campaign {
   const RunOutcome& outcome(std::size_t group, std::size_t seed) const { return runs[plan.index_of(group, seed)]; }
   Index count(RunState state) const;
   Index count(RunState state, std::size_t group) const;
-  /// A line for each learner that is missing, each thing in the folder that is none of its own, and each run that
-  /// failed before.
+  /// A line for each learner that is missing, each thing in the folder that is none of its own, and each run whose
+  /// folder cannot be used.
   std::vector<std::string> remarks() const;
   bool complete() const { return count(RunState::done) == static_cast<Index>(runs.size()); }
 };

@@ -218,7 +218,7 @@ std::vector<TrialStatistics> trial_statistics(const Campaign& campaign, std::siz
   const auto runs = runs_of(campaign, group);
   Index trials = 0;
   for (const RunOutcome* run : runs)
-    trials = std::max(trials, run->state == RunState::done ? campaign.plan.trials : run->done());
+    trials = std::max(trials, run->state == RunState::unfinished ? run->done() : campaign.plan.trials);
   std::vector<TrialStatistics> all;
   for (Index trial = 1; trial <= trials; ++trial)
     all.push_back(statistics_of({runs, trial, campaign.plan.until_solved}));

@@ -21,7 +21,7 @@ struct TrialStatistics {
   std::optional<statistics::Rate> solved, solved_by;
 };
 
-/// One entry for every trial that a run of the group has reached.
+/// One entry for every trial that a run of the group has reached, or never will, since it failed.
 std::vector<TrialStatistics> trial_statistics(const Campaign& campaign, std::size_t group);
 
 /// One row a trial of every run, in the order of the plan.

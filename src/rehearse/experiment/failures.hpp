@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
 #include "rehearse/experiment/memory.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/run_options.hpp"
@@ -23,6 +24,8 @@ auto named_failure(Index trial, const char* who, Step step, bool outside = false
     throw;  // with the options that ask for so much
   } catch (const RunFailed&) {
     throw;  // it says what failed
+  } catch (const system::Stopped&) {
+    throw Interrupted{};
   } catch (const system::Unavailable& error) {
     throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()), true);
   } catch (const std::exception& error) {

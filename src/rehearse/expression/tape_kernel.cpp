@@ -11,6 +11,7 @@
 #include <hwy/contrib/math/math-inl.h>
 
 #include "rehearse/core/dormand_prince.hpp"
+#include "rehearse/core/exponential-inl.hpp"
 #include "rehearse/core/sine-inl.hpp"
 #include "rehearse/expression/scalar.hpp"
 
@@ -41,11 +42,6 @@ HWY_INLINE void each(double* out, const double* a, const double* b, const double
 }
 
 HWY_INLINE V keep_nan(V in, V out) { return hn::IfThenElse(hn::IsNaN(in), in, out); }
-/// Highway 1.0.3's is 0 of NaN and of what overflows.
-HWY_INLINE V exponential(V x) {
-  const D d;
-  return keep_nan(x, hn::IfThenElse(hn::Gt(x, hn::Set(d, 709.78)), hn::Inf(d), hn::Exp(d, x)));
-}
 HWY_INLINE V smaller(V a, V b) { return hn::IfThenElse(hn::Or(hn::IsNaN(a), hn::Lt(a, b)), a, b); }
 template <class M>
 HWY_INLINE V truth(M holds, V a, V b) {
@@ -72,7 +68,7 @@ HWY_NOINLINE void execute(const Instruction& i, double* slots, Index n) {
     case Op::hyperbolic_tangent:
       return each(out, a, n, [d](V x) HWY_ATTR { return keep_nan(x, hn::Tanh(d, x)); });
     case Op::exponential:
-      return each(out, a, n, [](V x) HWY_ATTR { return exponential(x); });
+      return each(out, a, n, [](V x) HWY_ATTR { return rehearse::HWY_NAMESPACE::exponential(D(), x); });
     case Op::square_root:
       return each(out, a, n, [](V x) HWY_ATTR { return hn::Sqrt(x); });
     case Op::absolute:

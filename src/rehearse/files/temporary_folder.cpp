@@ -38,7 +38,13 @@ void remove_folder(const fs::path& path) noexcept {
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "rehearse-XXXXXX").string();
+  std::error_code failed;
+  const fs::path there = fs::temp_directory_path(failed);
+  if (failed) {
+    const char* set = std::getenv("TMPDIR");
+    throw InvalidInput(fmt::format("TMPDIR = '{}', must be a folder in which files can be made", set ? set : "/tmp"));
+  }
+  std::string name = (there / "rehearse-XXXXXX").string();
   if (!::mkdtemp(name.data()))
     throw std::system_error(errno, std::generic_category(), "no folder can be made: " + name);
   path_ = name;

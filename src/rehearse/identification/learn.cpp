@@ -56,15 +56,15 @@ bool is_odd(const FitProblem& problem, const Fit& fit, const GpOptions& options)
   if (options.mirror != dynamics::Mirror::automatic) return options.mirror == dynamics::Mirror::on;
   const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
   if (!rows.inputs || rows.inputs->dimensions() > dynamics::kFewInputs) return false;
-  if (problem.prior && not_its_image(residuals, *problem.prior, fit.phi)) return false;
+  if (problem.prior && not_its_image(residuals, *problem.prior, fit.phi, {})) return false;
   Index learned = 0;
   for (Index e = 0; e < rows.targets.cols(); ++e) learned += !residuals.predicted_by_servos(e);
   return nats_for_odd(residuals, rows, fit) > kOddNats * static_cast<double>(learned);
 }
 
-/// `smoothed`: null if measurement noise is to be estimated from the kernels' noise.
+/// `smoothed`: null if measurement noise is to be estimated from the kernels' noise. names: of states, for notes.
 Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, bool odd,
-                 const Smoothed* smoothed) {
+                 const Smoothed* smoothed, const std::vector<std::string>& names) {
   const dynamics::Residuals& residuals = problem.residuals;
   const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
   if (!rows.inputs) throw NoUsableRow("no row of the data set has a finite prior mean: nothing to learn from");
@@ -90,8 +90,8 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   learned.state.odd = odd;
   if (options.mirror == dynamics::Mirror::on) {
     std::optional<std::string> note;
-    if (problem.prior) note = not_its_image(residuals, *problem.prior, fit.phi);
-    if (!note) note = contradicts_image(*model, residuals, noise_of_changes(*model, residuals));
+    if (problem.prior) note = not_its_image(residuals, *problem.prior, fit.phi, names);
+    if (!note) note = contradicts_image(*model, residuals, noise_of_changes(*model, residuals), names);
     if (note) learned.notes.push_back(std::move(*note));
   }
   return learned;
@@ -138,7 +138,7 @@ Learned learn_gps(const Given& given, const GpOptions& options, const prior::Pri
   problem.refit(fit);
   const bool odd = is_odd(problem, fit, options);
   const auto finish = [&](const FitProblem& of, const Fit& made, const Smoothed* smoothed) {
-    return model_of(of, made, options, odd, smoothed);
+    return model_of(of, made, options, odd, smoothed, given.problem.state_names);
   };
   return with_answer(smoothed_if_likelier(given, options, problem, fit, false, finish), given.start, options);
 }
@@ -165,7 +165,7 @@ Learned learn_kind(const GpMi& kind, const Given& given) {
   if (!std::isfinite(found.score)) problem.refit(found);
   const bool odd = is_odd(problem, found, kind.gp);
   const auto finish = [&](const FitProblem& of, const Fit& fit, const Smoothed* smoothed) {
-    Learned learned = model_of(of, fit, kind.gp, odd, smoothed);
+    Learned learned = model_of(of, fit, kind.gp, odd, smoothed, given.problem.state_names);
     learned.score = fit.score;
     add_posterior(
         learned, prior,
@@ -203,14 +203,14 @@ const ResidualGpOptions* servo_options(const Kind& kind) {
 /// Learns a model of the robot behind its actuators. In front of this model they stand as they are known to be.
 Learned learn_behind_actuators(const LearningProblem& problem, const Kind& kind, const WarmStart& start,
                                const Evaluator& evaluator) {
-  const auto& [data, features, kinematics, prior, actuators] = problem;
+  const auto& [data, features, kinematics, prior, actuators, names] = problem;
   const auto own_kinds = features.kinds().begin() + actuators.own_states();
   const FeatureMap own(std::vector<StateKind>(features.kinds().begin(), own_kinds), features.joints(),
                        features.targets());
   std::optional<prior::Prior> robot;
   if (prior) robot = prior->behind_actuators();
-  Learned learned =
-      learn({dynamics::actuated(data, actuators), own, kinematics, robot ? &*robot : nullptr}, kind, start, evaluator);
+  Learned learned = learn({dynamics::actuated(data, actuators), own, kinematics, robot ? &*robot : nullptr, {}, names},
+                          kind, start, evaluator);
   learned.model = std::make_shared<dynamics::ActuatedModel>(learned.model, actuators);
   return learned;
 }
@@ -218,7 +218,7 @@ Learned learn_behind_actuators(const LearningProblem& problem, const Kind& kind,
 }  // namespace
 
 Learned learn(const LearningProblem& problem, const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
-  const auto& [data, features, kinematics, prior, actuators] = problem;
+  const auto& [data, features, kinematics, prior, actuators, names] = problem;
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
   if (actuators.memory() > 0) return learn_behind_actuators(problem, kind, start, evaluator);
@@ -229,11 +229,11 @@ Learned learn(const LearningProblem& problem, const Kind& kind, const WarmStart&
   if (!options || kinematics.servos.empty()) {
     Kinematics without = kinematics;
     without.servos.clear();
-    return learn_from({data, features, without, prior});
+    return learn_from({data, features, without, prior, {}, names});
   }
   const auto servos = std::make_shared<dynamics::Servos>(data, features, kinematics.servos, *options, evaluator);
   const prior::Prior driven = prior->behind_servos();
-  Learned learned = learn_from({dynamics::reached(data, kinematics.servos), features, kinematics, &driven});
+  Learned learned = learn_from({dynamics::reached(data, kinematics.servos), features, kinematics, &driven, {}, names});
   learned.model = std::make_shared<dynamics::ServoModel>(servos, learned.model);
   *learned.log_evidence += servos->log_evidence();
   return learned;

@@ -41,8 +41,9 @@ struct LearningProblem {
   const Dataset& data;
   FeatureMap features;
   Kinematics kinematics;
-  const prior::Prior* prior;  // null: none
-  Actuators actuators = {};   // in front of the robot; the data set has their memory
+  const prior::Prior* prior;                  // null: none
+  Actuators actuators = {};                   // in front of the robot; the data set has their memory
+  std::vector<std::string> state_names = {};  // the robot's, for notes
 };
 
 /// Thrown where the prior's mean is finite in no row of the data set.

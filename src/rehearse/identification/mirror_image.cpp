@@ -16,6 +16,11 @@ constexpr double kContradiction = 3;  // standard deviations of the noise, where
 constexpr double kContradictionOfChanges = 0.01;  // of the changes' deviation: where noise is none, rounding is more
 constexpr double kStill = 1e-9;                   // where a state never changes
 
+std::string name_of(Index state, const std::vector<std::string>& names) {
+  const auto s = static_cast<std::size_t>(state);
+  return s < names.size() ? names[s] : fmt::format("state {}", state + 1);
+}
+
 }  // namespace
 
 Vector signs_of_images(const FeatureMap& features, Index actions) {
@@ -40,8 +45,8 @@ double nats_for_odd(const dynamics::Residuals& residuals, const dynamics::Residu
   return nats;
 }
 
-std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const prior::Prior& prior,
-                                         const Vector& phi) {
+std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const prior::Prior& prior, const Vector& phi,
+                                         const std::vector<std::string>& names) {
   const Dataset& data = rows.data();
   const Dataset images{.states = -data.states, .actions = -data.actions, .changes = -data.changes, .rewards = {}};
   const Matrix errors = rows.targets(&prior, phi) + rows.of(images).targets(&prior, phi);
@@ -52,14 +57,14 @@ std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const 
       if (std::isfinite(errors(i, e))) largest = std::max(largest, std::abs(errors(i, e))), ++both;
     if (both == 0) return "mirror is set, but the prior is not finite at the images of the data";
     if (largest > kImageError * rows.scale()(e) + kStill)
-      return fmt::format("mirror is set, but the prior is not its own mirror image: output {} differs by {:.2g}", e,
-                         largest);
+      return fmt::format("mirror is set, but the prior is not its own mirror image: the change of {} differs by {:.2g}",
+                         name_of(e, names), largest);
   }
   return std::nullopt;
 }
 
 std::optional<std::string> contradicts_image(const dynamics::GpModel& model, const dynamics::Residuals& rows,
-                                             const Vector& noise) {
+                                             const Vector& noise, const std::vector<std::string>& names) {
   const Dataset& data = rows.data();
   Matrix mean(data.size(), data.changes.cols());
   model.predict_mean(data.states, data.actions, mean);
@@ -69,8 +74,8 @@ std::optional<std::string> contradicts_image(const dynamics::GpModel& model, con
     const double error = errors.norm() / std::sqrt(static_cast<double>(errors.size()));
     const double deviation = std::sqrt(noise(e));
     if (error > kContradiction * deviation && error > kContradictionOfChanges * rows.scale()(e))
-      return fmt::format("mirror is set, but measured steps contradict it: output {} errs by {:.2g} times its noise", e,
-                         error / deviation);
+      return fmt::format("mirror is set, but measured steps contradict it: {} errs by {:.2g} times its noise",
+                         name_of(e, names), error / deviation);
   }
   return std::nullopt;
 }

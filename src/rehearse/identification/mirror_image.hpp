@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/dynamics/residuals.hpp"
@@ -19,12 +20,14 @@ Vector signs_of_images(const FeatureMap& features, Index actions);
 /// nothing. NaN where it cannot be computed.
 double nats_for_odd(const dynamics::Residuals& residuals, const dynamics::Residuals::Rows& rows, const Fit& fit);
 
-/// A note if the prior at φ does not do the opposite at the images of the rows.
-std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const prior::Prior& prior, const Vector& phi);
+/// A note if the prior at φ does not do the opposite at the images of the rows. names: of states; where there are none
+/// they are counted from 1.
+std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const prior::Prior& prior, const Vector& phi,
+                                         const std::vector<std::string>& names);
 
 /// A note if the model errs at the rows it was told by much more than their noise, whose variances are given (dx):
 /// their images say something else.
 std::optional<std::string> contradicts_image(const dynamics::GpModel& model, const dynamics::Residuals& rows,
-                                             const Vector& noise);
+                                             const Vector& noise, const std::vector<std::string>& names);
 
 }  // namespace rehearse::identification

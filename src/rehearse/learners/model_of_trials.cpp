@@ -32,10 +32,10 @@ identification::WarmStart ModelOfTrials::learn(Proposal& proposal) const {
     return start_;
   }
   try {
-    identification::Learned learned =
-        identification::learn({data_, setting_.task.model_features(), setting_.task.kinematics(),
-                               setting_.prior ? &*setting_.prior : nullptr, setting_.task.actuators()},
-                              kind_, start_, *setting_.evaluator);
+    identification::Learned learned = identification::learn(
+        {data_, setting_.task.model_features(), setting_.task.kinematics(), setting_.prior ? &*setting_.prior : nullptr,
+         setting_.task.actuators(), setting_.task.state_names()},
+        kind_, start_, *setting_.evaluator);
     proposal.model = learned.model;
     proposal.phi = learned.state.phi;
     proposal.posterior = std::move(learned.posterior);

@@ -8,15 +8,15 @@
 namespace rehearse::recording {
 namespace {
 
-/// The states as the columns of the episode's file; angles are unwrapped, as robots may give them within one turn.
+/// The robot's own states as the columns of the episode's file, without what actuators remember of commands, which
+/// may jump.
 std::vector<Channel> channels_of(const Task& task, const Matrix& states) {
   std::vector<Channel> channels;
-  for (Index s = 0; s < states.cols(); ++s) {
+  for (Index s = 0; s < task.actuators().own_states(); ++s) {
     const StateVariable& state = task.states[static_cast<std::size_t>(s)];
     Channel channel{state.name, state.unit, {}};
     for (Index k = 0; k < states.rows(); ++k)
       channel.samples.push_back({static_cast<double>(k) * task.dt_s, states(k, s), k + 2});
-    if (state.kind == StateKind::angle) unwrap(channel);
     channels.push_back(std::move(channel));
   }
   return channels;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/names.hpp"
+#include "rehearse/core/turns.hpp"
 #include "rehearse/recording/rates.hpp"
 #include "rehearse/statistics/quantiles.hpp"
 
@@ -99,18 +100,25 @@ double lateness_of(const Channel& state, const Channel& rate) {
 
 }  // namespace
 
-Index unwrap(Channel& angle) {
+Index unwrap(Channel& angle, double start) {
   const std::vector<double> values = values_of(angle);
   const auto [low, high] = std::ranges::minmax(values);
   Index turned = 0;
   if (high - low > kTurn * (1 + 1e-6)) return 0;
-  double turns = 0;
+  double turns = within_one_turn(low, high) ? std::nearbyint((start - values.front()) / kTurn) : 0;
+  angle.samples.front().value += turns * kTurn;
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double change = values[i] - values[i - 1];
     if (std::abs(change) > kTurn / 2) turns -= std::copysign(1, change), ++turned;
     if (turns != 0) angle.samples[i].value += turns * kTurn;
   }
   return turned;
+}
+
+void move_beside(Channel& angle, double start) {
+  const double turns = std::nearbyint((start - angle.samples.front().value) / kTurn);
+  if (turns == 0) return;
+  for (Sample& sample : angle.samples) sample.value += turns * kTurn;
 }
 
 void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::vector<std::string>& notes) {

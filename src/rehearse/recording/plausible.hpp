@@ -11,7 +11,11 @@
 namespace rehearse::recording {
 
 /// Adds whole turns (rad) where a channel that keeps within one turn jumps by more than half of one. Returns how often.
-Index unwrap(Channel& angle);
+/// Where that turn is −π to π or 0 to 2π, the channel begins in the one that is nearest to `start`.
+Index unwrap(Channel& angle, double start);
+
+/// Adds whole turns to all, so that the channel begins next to `start`.
+void move_beside(Channel& angle, double start);
 
 /// Clips actions that are beyond their bounds by no more than rounding (a thousandth of the range); others are
 /// problems.

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/core/angle.hpp"
-
 namespace rehearse::recording {
 namespace {
 
@@ -113,9 +111,7 @@ std::vector<std::string> notes_on_rates(const Task& task, const ConstMatrixView&
   std::vector<std::string> notes;
   for (const Kinematics::Pair& pair : task.kinematics().pairs) {
     const Vector expected = 0.5 * task.dt_s * (X.col(pair.rate) + X_next.col(pair.rate));
-    Vector changes = X_next.col(pair.position) - X.col(pair.position);
-    if (task.states[static_cast<std::size_t>(pair.position)].kind == StateKind::angle)
-      changes = changes.unaryExpr(&shorter_way).eval();  // robots may give angles within one turn
+    const Vector changes = X_next.col(pair.position) - X.col(pair.position);
     const auto name = [&](Index state) { return task.states[static_cast<std::size_t>(state)].name; };
     if (std::string note = note_on_rate(name(pair.position), name(pair.rate), expected, changes); !note.empty())
       notes.push_back(std::move(note));

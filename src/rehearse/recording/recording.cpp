@@ -63,7 +63,7 @@ files::Table table_of(std::string_view text, const std::string& source, std::vec
 void unwrap_angles(std::vector<Channel>& channels, const Task& task, std::vector<std::string>& notes) {
   for (std::size_t s = 0; s < channels.size(); ++s) {
     if (task.states[s].kind != StateKind::angle) continue;
-    const Index turned = unwrap(channels[s]);
+    const Index turned = unwrap(channels[s], task.start_mean(static_cast<Index>(s)));
     if (turned > 0)
       notes.push_back(fmt::format("{} was wrapped, and is unwrapped at {} rows", channels[s].name, turned));
   }
@@ -72,6 +72,9 @@ void unwrap_angles(std::vector<Channel>& channels, const Task& task, std::vector
 void check_channels(Channels& channels, const Task& task, Problems& problems, std::vector<std::string>& notes) {
   unwrap_angles(channels.states, task, notes);
   unwrap_angles(channels.truths, task, notes);
+  for (std::size_t s = 0; s < channels.truths.size(); ++s)
+    if (task.states[s].kind == StateKind::angle)
+      move_beside(channels.truths[s], channels.states[s].samples.front().value);
   const std::vector<const Channel*> rates = rates_of(channels.states, task);
   for (std::size_t s = 0; s < rates.size(); ++s) {
     check_jumps(channels.states[s], rates[s], problems);

@@ -152,7 +152,7 @@ std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Varia
 
 std::optional<scenario::Drawing> DynamicsMaker::drawing() const {
   std::vector<const Variant*> variants;
-  if (robot_.has_plant && robot_.plant_function.empty()) variants.push_back(&robot_.plant);
+  if (robot_.has_plant_dynamics()) variants.push_back(&robot_.plant);
   for (const Variant& prior : robot_.priors) variants.push_back(&prior);
   for (const Variant* variant : variants) {
     const Dynamics& dynamics = robot_.dynamics_of(*variant);
@@ -187,7 +187,7 @@ bool DynamicsMaker::is_of_a_prior(const Dynamics& dynamics) const {
 }
 
 bool DynamicsMaker::is_of_the_plant(const Dynamics& dynamics) const {
-  return robot_.has_plant && robot_.plant_function.empty() && robot_.plant.dynamics == dynamics.name;
+  return robot_.has_plant_dynamics() && robot_.plant.dynamics == dynamics.name;
 }
 
 std::function<void(scenario::PlantUse)> DynamicsMaker::require_ready() const {

@@ -35,7 +35,7 @@ class Reader {
     read_dynamics(file_, robot_, read_file_, violations_);
     read_plant();
     read_priors();
-    const bool asked = (robot_.has_plant && robot_.plant_function.empty()) || !robot_.priors.empty();
+    const bool asked = robot_.has_plant_dynamics() || !robot_.priors.empty();
     required(!asked || !robot_.dynamics.empty(), "[dynamics.NAME]", "how the states change");
     read_policy();
     read_bodies();

@@ -1,6 +1,7 @@
 #include "rehearse/robot_file/robot.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace rehearse::robot_file {
 
@@ -29,8 +30,9 @@ std::vector<std::string> Robot::action_names() const {
 }
 
 const Dynamics& Robot::dynamics_of(const Variant& variant) const {
-  return *std::find_if(dynamics.begin(), dynamics.end(),
-                       [&](const Dynamics& each) { return each.name == variant.dynamics; });
+  const auto found = std::ranges::find(dynamics, variant.dynamics, &Dynamics::name);
+  if (found == dynamics.end()) throw std::logic_error("a variant without dynamics");
+  return *found;
 }
 
 system::OdeFormulas Robot::equation(const Dynamics& of) const {

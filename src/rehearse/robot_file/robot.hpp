@@ -124,6 +124,7 @@ struct Robot {
   std::vector<scenario::NamedFile> files;  // of programs and models
   Functions functions;
 
+  bool has_plant_dynamics() const { return has_plant && plant_function.empty(); }  // `plant` plays the robot
   std::vector<std::string> state_names() const;
   std::vector<std::string> task_state_names() const;  // and of what actuators remember
   Actuators actuators() const { return {actions, dt_s, static_cast<Index>(states.size())}; }

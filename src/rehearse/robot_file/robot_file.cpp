@@ -12,6 +12,7 @@
 #include "rehearse/robot_file/start.hpp"
 #include "rehearse/robot_file/task.hpp"
 #include "rehearse/system/actuated.hpp"
+#include "rehearse/system/counted_turns.hpp"
 
 namespace rehearse::robot_file {
 namespace {
@@ -79,7 +80,10 @@ class Builder final : public scenario::ScenarioBuilder {
                                 .require_ready = dynamics.require_ready(),
                                 .evaluations = robot_.options.evaluations};
     if (!robot_.plant_function.empty()) {
-      scenario.make_plant = function_of(robot_.functions.plants, robot_.plant_function);
+      scenario.make_plant = [make = function_of(robot_.functions.plants, robot_.plant_function),
+                             turns = Turns(around.angles, around.start_mean)] {
+        return system::with_turns_counted(make(), turns);
+      };
     } else if (robot_.has_plant) {
       scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);
       scenario.make_plant = dynamics.plant(plant, around);
@@ -114,7 +118,14 @@ class Builder final : public scenario::ScenarioBuilder {
 
   /// Start and noise of the robot's own states.
   system::StartAndSensors around_robot(const Task& task, Index own) const {
-    return {task.start_mean.head(own), task.start_std.head(own), robot_.options.measurement_std(own)};
+    return {task.start_mean.head(own), task.start_std.head(own), robot_.options.measurement_std(own), angles()};
+  }
+
+  std::vector<Index> angles() const {
+    std::vector<Index> angles;
+    for (Index i = 0; i < std::ssize(robot_.states); ++i)
+      if (robot_.states[static_cast<std::size_t>(i)].variable.kind == StateKind::angle) angles.push_back(i);
+    return angles;
   }
 
   /// The drawing of the model, whose states are the robot's own alone.
@@ -142,10 +153,10 @@ class Builder final : public scenario::ScenarioBuilder {
   std::vector<std::string> lines_of_prior(const Variant& prior) const {
     const Dynamics& dynamics = robot_.dynamics_of(prior);
     std::vector<std::string> lines = lines_of_unseen(dynamics);
-    const bool said = robot_.has_plant && robot_.plant.dynamics == dynamics.name;  // of the plant
+    const bool said = robot_.has_plant_dynamics() && robot_.plant.dynamics == dynamics.name;  // of the plant
     if (!said) lines.insert(lines.end(), dynamics.warnings.misfits.begin(), dynamics.warnings.misfits.end());
     if (said) add_out_of_reach(prior, lines);
-    if (!said && robot_.has_plant) add_other_timestep(dynamics, lines);
+    if (!said && robot_.has_plant_dynamics()) add_other_timestep(dynamics, lines);
     add_negative_masses(prior, lines);
     return lines;
   }

@@ -157,7 +157,7 @@ class StartChecker {
 void check_start(const Robot& robot, const Task& task, files::FileViolations& violations) {
   StartChecker checker(robot, task, violations);
   checker.check_task();
-  if (robot.has_plant && robot.plant_function.empty()) checker.check_rates(robot.plant, "plant");
+  if (robot.has_plant_dynamics()) checker.check_rates(robot.plant, "plant");
   for (const Variant& prior : robot.priors) checker.check_rates(prior, "prior " + prior.name);
 }
 

@@ -14,14 +14,18 @@
 namespace rehearse::rollout {
 namespace {
 
-Vector checked(Vector state, const Task& task, Index step) {
+/// within what a robot may answer
+bool is_plausible(const Vector& state) { return (state.array().abs() <= kLargestGiven).all(); }
+
+/// what: "state", or "true state".
+Vector checked(Vector state, const Task& task, Index step, const char* what = "state") {
   if (state.size() != task.state_size())
-    throw std::runtime_error(fmt::format("the plant's state at step {} has {} entries, must have {}", step,
+    throw std::runtime_error(fmt::format("the plant's {} at step {} has {} entries, must have {}", what, step,
                                          state.size(), task.state_size()));
   for (Index i = 0; i < state.size(); ++i) {
     if (std::abs(state(i)) <= kLargestGiven) continue;
     const std::string bound = std::isfinite(state(i)) ? fmt::format("within ±{:g}", kLargestGiven) : "finite";
-    throw std::runtime_error(fmt::format("the plant's state at step {} has {} = {}, must be {}", step,
+    throw std::runtime_error(fmt::format("the plant's {} at step {} has {} = {}, must be {}", what, step,
                                          task.states[static_cast<std::size_t>(i)].name, state(i), bound));
   }
   return state;
@@ -41,10 +45,11 @@ std::string unfit(const Matrix& u, const Task& task, Index step) {
   return {};
 }
 
-void record_state(Episode& episode, Index row, const Vector& measured, const system::Plant& plant) {
+void record_state(Episode& episode, Index row, const Vector& measured, const system::Plant& plant, const Task& task) {
   const Vector truth = plant.truth();
   episode.states.row(row) = measured.transpose();
-  episode.true_states.row(row) = (truth.size() == measured.size() ? truth : measured).transpose();
+  const bool known = truth.size() == measured.size();
+  episode.true_states.row(row) = (known ? checked(truth, task, row, "true state") : measured).transpose();
 }
 
 /// Calls work(steps) with step t of an episode.
@@ -120,7 +125,7 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
   Matrix u(1, task.action_size());
   const Actuators actuators = task.actuators();
   const system::EpisodeOn on_plant(plant);
-  record_state(episode, 0, checked(plant.reset(rng), task, 0), plant);
+  record_state(episode, 0, checked(plant.reset(rng), task, 0), plant, task);
   for (Index t = 0; t < T; ++t) {
     if (before_step) before_step();
     policy.act(Theta, episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
@@ -131,11 +136,12 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
     }
     episode.actions.row(t) = u;
     const Vector next = plant.step(u.transpose());
-    if (contained && !next.allFinite()) {
-      end(episode, t, task, fmt::format("the state at step {} is not finite", t + 1));
+    if (contained && !is_plausible(next)) {
+      const std::string why = next.allFinite() ? fmt::format("beyond ±{:g}", kLargestGiven) : "not finite";
+      end(episode, t, task, fmt::format("the state at step {} is {}", t + 1, why));
       break;
     }
-    record_state(episode, t + 1, checked(next, task, t + 1), plant);
+    record_state(episode, t + 1, checked(next, task, t + 1), plant, task);
     if (ends_at(episode, t, task)) break;
     if (plant.ended()) {
       end(episode, t + 1, task);

@@ -61,7 +61,8 @@ LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const pr
 identification::Learned learned_beyond(const LogModel& model, const Task& task, const prior::Prior& prior,
                                        const Options& options, const Evaluator& evaluator) {
   const auto learn = [&](const prior::Prior& of, const identification::Kind& kind) {
-    const identification::LearningProblem problem{model.data, task.model_features(), task.kinematics(), &of};
+    const identification::LearningProblem problem{model.data, task.model_features(), task.kinematics(), &of,
+                                                  {},         task.state_names()};
     return identification::learn(problem, kind, {{}, model.zeros.phi}, evaluator);
   };
   if (options.beyond == Beyond::gp_mi) return learn(prior, options.model);

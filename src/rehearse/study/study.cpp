@@ -79,19 +79,28 @@ class Student {
     const Index least = zero_problem(problem_.prior, problem_.task, options_).horizon;
     std::vector<std::string> lines;
     for (const Log& log : logs_)
-      if (log.episode.steps() < least)
-        lines.push_back(
-            fmt::format("{}: {} control steps, must be at least the {} that parameters are fitted to "
-                        "(--set fit_horizon_s={:.2g} would do)",
-                        log.name, log.episode.steps(), least,
-                        seconds(std::max<Index>(1, log.episode.steps() / 2), problem_.task.dt_s)));
+      if (log.episode.steps() < least) lines.push_back(too_short(log, least));
     if (logs_.size() - lines.size() < 2 && !lines.empty()) throw InvalidInput(lines);
+  }
+
+  std::string too_short(const Log& log, Index least) const {
+    const Index steps = log.episode.steps(), half = steps / 2;
+    std::string line = fmt::format("{}: {} control steps, must be at least the {} that parameters are fitted to",
+                                   log.name, steps, least);
+    if (half > 0) line += fmt::format(" (--set fit_horizon_s={:.2g} would do)", seconds(half, problem_.task.dt_s));
+    return line;
   }
 
   /// Logs that are left out or held out have their zeros estimated from their first seconds, and are forecast from then
   /// on.
   void require_time_for_zeros() const {
     if (states_named(options_.zeros, problem_.task).empty()) return;
+    const Index least = zero_problem(problem_.prior, problem_.task, options_).horizon;
+    if (steps_of(options_.zero_s, problem_.task) < least)
+      throw InvalidInput(
+          fmt::format("zero_s = {}, must be at least the {:.4g} s that parameters are fitted to "
+                      "(fit_horizon_s = {})",
+                      options_.zero_s, seconds(least, problem_.task.dt_s), options_.fit_horizon_s));
     std::vector<std::string> lines;
     const auto check = [&](const Log& log) {
       if (steps_of(options_.zero_s, problem_.task) >= log.episode.steps())

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/turns.hpp"
 #include "rehearse/system/conversation.hpp"
 
 namespace rehearse::system {
@@ -64,13 +65,18 @@ class EpisodePlant final : public Plant {
  public:
   /// conversation: with the program, which is started once.
   EpisodePlant(const Program& program, std::unique_ptr<Conversation> conversation, Vector phi, StartAndSensors around)
-      : program_(program), phi_(std::move(phi)), around_(std::move(around)), conversation_(std::move(conversation)) {}
+      : program_(program),
+        phi_(std::move(phi)),
+        around_(std::move(around)),
+        turns_(around_.angles, around_.start_mean),
+        conversation_(std::move(conversation)) {}
 
   Vector reset(Rng& rng) override {
     require_finished();
     const Vector start = around_.start(rng);
     const auto seed = static_cast<std::uint64_t>(rng.uniform() * 0x1p53);
     rng_ = rng;
+    turns_.begin();
     if (!conversation_) conversation_ = std::make_unique<Conversation>(program_);
     if (!conversation_->problem().empty()) fail();
     return seen(conversation_->reset(start, phi_, seed));
@@ -103,8 +109,9 @@ class EpisodePlant final : public Plant {
  private:
   Vector seen(const std::optional<messages::State>& answer) {
     if (!answer) fail();
-    truth_ = answer->truth;
-    return around_.measured(answer->measured, *rng_);
+    const Vector measured = turns_.counted(answer->measured);
+    truth_ = turns_.beside(answer->truth, measured);
+    return around_.measured(measured, *rng_);
   }
 
   void not_ended(const char* why) noexcept {
@@ -124,6 +131,7 @@ class EpisodePlant final : public Plant {
   Program program_;
   Vector phi_;
   StartAndSensors around_;
+  Turns turns_;
   std::unique_ptr<Conversation> conversation_;  // null: the last one failed
   std::string not_ended_;                       // why the last episode's end was not answered well
   std::optional<Rng> rng_;

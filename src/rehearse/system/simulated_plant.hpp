@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/types.hpp"
@@ -12,8 +13,9 @@ namespace rehearse::system {
 
 /// The Gaussian start of an episode, and the Gaussian noise of its measurements.
 struct StartAndSensors {
-  Vector start_mean, start_std;  // dx
-  Vector measurement_std;        // dx; empty: none
+  Vector start_mean, start_std;    // dx
+  Vector measurement_std;          // dx; empty: none
+  std::vector<Index> angles = {};  // states that a program which keeps its own may give within one turn
 
   Vector start(Rng& rng) const;                          // the true state (dx)
   Vector measured(const Vector& state, Rng& rng) const;  // of a true state (dx)

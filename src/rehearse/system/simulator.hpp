@@ -16,6 +16,12 @@ class Unavailable : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The user stopped the work inside of the simulator or plant: no failure.
+class Stopped : public Unavailable {
+ public:
+  using Unavailable::Unavailable;
+};
+
 /// A black box that maps states, actions and parameters to state changes over one control step, a batch at a time.
 ///
 /// Laws (checked by testing::check_simulator): `change` may run concurrently; a row depends on that row alone; a row

@@ -154,7 +154,7 @@ TEST(Claims, ComparisonIsPairedBySeed) {
   EXPECT_EQ(judge(campaign)[0].verdict, Verdict::undecided);
   EXPECT_EQ(judge(campaign)[0].parts[0].reason, "7 of 8 pairs are done");
   campaign.runs[2 * 8 + 3].state = RunState::failed;
-  EXPECT_EQ(judge(campaign)[0].parts[0].reason, "1 runs failed and have no such value");
+  EXPECT_EQ(judge(campaign)[0].parts[0].reason, "1 of 8 pairs without such a value, since runs failed");
 }
 
 TEST(Claims, ComparisonFailsWhenItIsTheOtherWayRoundOrEqual) {

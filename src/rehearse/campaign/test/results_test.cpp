@@ -39,11 +39,12 @@ TEST(Campaign, RemarksSayWhatIsNotRun) {
   campaign.plan.runs[1].name = "line-echo-2";
   campaign.skipped.push_back({"runs/other", "it is no run of this campaign"});
   campaign.runs.resize(2);
-  EXPECT_EQ(campaign.remarks().size(), 2u);
   campaign.runs[1].fail("the plant failed");
+  EXPECT_EQ(campaign.remarks().size(), 2u) << "it is tried again";
+  campaign.runs[1].unusable = true;
   EXPECT_EQ(campaign.remarks(), (std::vector<std::string>{"missing: learner 'ite' is not built",
                                                           "skipped: runs/other: it is no run of this campaign",
-                                                          "skipped: line-echo-2: the plant failed"}));
+                                                          "cannot be used: line-echo-2: the plant failed"}));
 }
 
 TEST(RunOutcome, ALastTrialStandsForLaterOnesOnceTheRunIsDone) {

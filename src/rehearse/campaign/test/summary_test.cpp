@@ -87,6 +87,17 @@ Campaign two_solved_and_one_under_way(bool until_solved) {
   return campaign;
 }
 
+TEST(Summary, AGroupWhoseRunsAllFailedHasSolvedNone) {
+  Campaign campaign = two_solved_and_one_under_way(true);
+  for (std::size_t seed = 0; seed < 3; ++seed) campaign.runs[seed] = {.state = RunState::failed};
+  const std::vector<TrialStatistics> trials = trial_statistics(campaign, 0);
+  ASSERT_EQ(trials.size(), 4u);
+  EXPECT_EQ(trials[3].runs, 0);
+  EXPECT_TRUE(std::isnan(trials[3].total_reward.median));
+  EXPECT_EQ(trials[3].solved_by->count, 0);
+  EXPECT_EQ(trials[3].solved_by->of, 3);
+}
+
 TEST(Summary, RunsUnderWayCountWhereOthersEndEarly) {
   const Campaign campaign = two_solved_and_one_under_way(true);
   EXPECT_EQ(campaign.count(RunState::done, 0), 2);

@@ -32,6 +32,10 @@ TEST(VectorMath, ExpAgreesWithTheLibrary) {
   expect_close(vector_exp, std_exp, uniforms(10001, -700, 700), 1e-14);
   expect_close(vector_exp, std_exp, uniforms(10001, -1, 1), 1e-14);
   expect_close(vector_exp, std_exp, Vector{{0, -0.0, 1e-300}}, 0);
+  const Vector large{{709.79, 800, 1419.5, 2000, 5000, 1e300}};
+  Vector infinite(large.size());
+  vector_exp(large.data(), infinite.data(), large.size());
+  EXPECT_EQ(infinite, Vector::Constant(large.size(), kInf));
 }
 
 TEST(VectorMath, TanhAgreesWithTheLibrary) {

@@ -1,8 +1,12 @@
 #include "rehearse/files/temporary_folder.hpp"
 
+#include <cstdlib>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/test/test_tools.hpp"
 #include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::files {
@@ -28,6 +32,15 @@ TEST(TemporaryFolder, AllMayBeRemovedAtOnce) {
   remove_temporary_folders();
   EXPECT_FALSE(std::filesystem::exists(folder.path()));
   EXPECT_FALSE(std::filesystem::exists(other.path()));
+}
+
+TEST(TemporaryFolder, NeedsAFolderForTemporaryFiles) {
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "";
+  ::setenv("TMPDIR", "/no/such/folder", 1);
+  EXPECT_EQ(message_of<InvalidInput>([] { const TemporaryFolder folder; }),
+            "TMPDIR = '/no/such/folder', must be a folder in which files can be made");
+  before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
 }
 
 TEST(TemporaryFolder, NothingIsWrittenOutsideOfIt) {

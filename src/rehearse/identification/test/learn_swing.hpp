@@ -14,7 +14,7 @@ using namespace rehearse::swing;  // NOLINT(google-build-using-namespace)
 
 inline Learned learn_swing(const Dataset& data, const Kind& kind, const prior::Prior* prior = nullptr,
                            const WarmStart& start = {}, const Evaluator& evaluator = serial_evaluator()) {
-  return learn({data, features(), {}, prior}, kind, start, evaluator);
+  return learn({data, features(), {}, prior, {}, {"dtheta", "theta"}}, kind, start, evaluator);
 }
 
 /// The root mean square error, over rows and outputs, of the changes that a model predicts at the rows of the data.

@@ -139,7 +139,8 @@ TEST(LearnedMirrorImage, APriorThatIsNotItsMirrorImageIsSaid) {
   });
   const std::vector<std::string> notes = learn_swing(data, mirrored, &leaning).notes;
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("not its own mirror image: output 0 differs by 0.1"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("not its own mirror image: the change of dtheta differs by 0.1"), std::string::npos)
+      << notes[0];
   EXPECT_EQ(learn_swing(data, FixedPrior{}, &leaning).notes, std::vector<std::string>{});
 }
 
@@ -151,7 +152,7 @@ TEST(LearnedMirrorImage, StepsThatContradictTheMirrorImageAreSaid) {
   data.changes.col(0).array() += 0.2;  // a motor that pulls to one side
   const std::vector<std::string> notes = learn_swing(data, mirrored).notes;
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("measured steps contradict it: output 0"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("measured steps contradict it: dtheta errs by "), std::string::npos) << notes[0];
   EXPECT_EQ(learn_swing(data, ZeroMean{}).notes, std::vector<std::string>{});
 }
 
@@ -169,7 +170,8 @@ TEST(LearnedMirrorImage, StepsThatContradictItAreSaidWhereThePriorFailsAtOthers)
   const auto learned = learn_swing(data, mirrored, &prior);
   EXPECT_GT(learned.left_out_rows, 0);
   ASSERT_EQ(learned.notes.size(), 1u);
-  EXPECT_NE(learned.notes[0].find("measured steps contradict it: output 0"), std::string::npos) << learned.notes[0];
+  EXPECT_NE(learned.notes[0].find("measured steps contradict it: dtheta errs by "), std::string::npos)
+      << learned.notes[0];
 }
 
 }  // namespace

@@ -135,8 +135,9 @@ Model learn(const ModelProblem& problem, const identification::WarmStart& start,
   if (!mean.network.empty()) network = moments::network_prior("network", features, mean.network);
   try {
     const Kinematics none{.dt_s = task.dt_s};  // neither integrals of rates nor servos, which have no moments
-    identification::Learned learned = identification::learn({data, features, none, network ? &*network : mean.prior},
-                                                            kind(options, mean), start, evaluator);
+    identification::Learned learned =
+        identification::learn({data, features, none, network ? &*network : mean.prior, {}, task.state_names()},
+                              kind(options, mean), start, evaluator);
     model.notes = std::move(learned.notes);
     const auto& kernels = learned.smoothed ? learned.smoothed->kernels : learned.state.kernels;
     const Vector phi = learned.state.phi.value_or(Vector());

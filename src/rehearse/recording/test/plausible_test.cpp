@@ -25,9 +25,29 @@ Channel channel_of(const std::string& name, double dt_s, Index count, const std:
 TEST(Unwrap, AnglesThatKeepWithinATurnGoOn) {
   const auto wrapped = [](double t) { return std::remainder(3 * t, 2 * std::numbers::pi); };
   Channel angle = channel_of("q", 0.1, 100, wrapped);
-  EXPECT_EQ(unwrap(angle), 5);  // 3 · 9.9 rad are 4.7 turns, of which the first ends at half
+  EXPECT_EQ(unwrap(angle, 0), 5);  // 3 · 9.9 rad are 4.7 turns, of which the first ends at half
   for (const Sample& sample : angle.samples) EXPECT_NEAR(sample.value, 3 * sample.time_s, 1e-12);
-  EXPECT_EQ(unwrap(angle), 0);
+  EXPECT_EQ(unwrap(angle, 0), 0);
+}
+
+TEST(Unwrap, AnglesWithinATurnBeginInThatOfTheStart) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const auto from_0 = [](double t) { return std::sin(3 * t) - 0.1; };
+  Channel angle = channel_of("q", 0.1, 100, [&](double t) { return from_0(t) + (from_0(t) < 0 ? kTurn : 0); });
+  EXPECT_GT(unwrap(angle, -0.1), 5);
+  for (const Sample& sample : angle.samples) EXPECT_NEAR(sample.value, from_0(sample.time_s), 1e-12);
+  Channel still = channel_of("q", 0.1, 100, [](double) { return 6.2; });
+  EXPECT_EQ(unwrap(still, 0), 0);
+  EXPECT_EQ(still.samples.back().value, 6.2 - kTurn);
+  Channel counts_on = channel_of("q", 0.1, 100, [](double) { return 6.4; });
+  EXPECT_EQ(unwrap(counts_on, 0), 0);
+  EXPECT_EQ(counts_on.samples.back().value, 6.4);
+}
+
+TEST(MoveBeside, AddsWholeTurnsToAll) {
+  Channel angle = channel_of("q", 0.1, 3, [](double t) { return 1 + t; });
+  move_beside(angle, 1 + 4 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(angle.samples[2].value, 1.2 + 4 * std::numbers::pi);
 }
 
 TEST(Bounds, RoundingIsClippedAndMoreIsAProblem) {

@@ -2,6 +2,7 @@
 #include "rehearse/robot_file/functions.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -98,6 +99,22 @@ TEST(RobotFunctions, StandWhereTheFileNamesThem) {
   Matrix change(1, 1);
   prior.simulator->change(Matrix{{0.0}}, Matrix{{1.0}}, prior.parameters.values(), change);
   EXPECT_EQ(change(0, 0), 0.5);
+}
+
+TEST(RobotFunctions, APlantsAngleMayStayWithinOneTurn) {
+  Functions known = functions();
+  class Wheel final : public system::Plant {
+   public:
+    Vector reset(Rng&) override { return Vector{{3}}; }
+    Vector step(const Vector&) override { return Vector{{-3}}; }
+  };
+  known.plants["robot"] = [] { return std::make_unique<Wheel>(); };
+  std::string text = kFile;
+  text.insert(text.find("name = \"x\""), "angle = true\n");
+  const auto plant = builder(text, "pushed.toml", example::no_files, known)->build().make_plant();
+  Rng rng({.seed = 1});
+  EXPECT_EQ(plant->reset(rng), Vector{{3}});
+  EXPECT_DOUBLE_EQ(plant->step(Vector{{0}})(0), 2 * std::numbers::pi - 3);
 }
 
 TEST(RobotFunctions, APlantIsWhatTheProgramMakes) {

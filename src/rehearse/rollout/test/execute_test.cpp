@@ -238,42 +238,16 @@ TEST(Execute, MayBeStoppedBeforeAnyStep) {
   EXPECT_EQ(plant.actions.size(), 5u);
 }
 
-TEST(Execute, ASimulatorInThePlaceOfThePlant) {
-  const Task task = cart::task();
-  const ParameterSpace space({{.name = "push", .unit = "1/kg", .value = 0.1}});
-  const auto simulator = system::make_simulator(
-      space, [](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
-        dX.col(0) = phi(0) * U.col(0);
-        dX.col(1) = 0.1 * X.col(0);
-      });
-  const Vector theta = cart::candidates(1), phi{{0.2}};
-  const Episode episode = execute({simulator, phi}, *cart::policy(), theta, task, kRng);
-  ASSERT_EQ(episode.steps(), 20);
-  EXPECT_EQ(episode.states, episode.true_states);
-  EXPECT_NE(episode.states(0, 0), 0) << "it starts as the task says";
-  for (Index t = 0; t < 20; ++t) {
-    EXPECT_DOUBLE_EQ(episode.states(t + 1, 0), episode.states(t, 0) + 0.2 * episode.actions(t, 0));
-    EXPECT_DOUBLE_EQ(episode.states(t + 1, 1), episode.states(t, 1) + 0.1 * episode.states(t, 0));
-  }
-  EXPECT_EQ(episode.states, execute({simulator, phi}, *cart::policy(), theta, task, kRng).states);
-}
-
-TEST(Execute, AStepThatCannotBeSimulatedIsAFall) {
-  Task task = cart::task(0);
-  Index steps = 0;
-  const auto simulator =
-      system::make_simulator({}, [&](const ConstMatrixView&, const ConstMatrixView&, const Vector&, MatrixView dX) {
-        if (steps++ == 3) throw std::runtime_error("lost");
-        if (steps > 4)
-          dX.setConstant(std::numeric_limits<double>::quiet_NaN());
-        else
-          dX.setConstant(0.1);
-      });
-  const Episode episode = execute({simulator, Vector()}, *cart::policy(), cart::candidates(1), task, kRng);
-  EXPECT_EQ(episode.states.rows(), 4);
-  EXPECT_TRUE(episode.ended && episode.states.allFinite());
-  EXPECT_EQ(episode.failure, "the state at step 4 is not finite");
-  EXPECT_EQ(episode.charged, -0.5 * 17);
+TEST(Execute, ATruthThatIsNoStateIsNamed) {
+  class Doubtful final : public system::Plant {
+   public:
+    Vector reset(Rng&) override { return Vector{{0, 0}}; }
+    Vector step(const Vector&) override { return Vector{{0, 0}}; }
+    Vector truth() const override { return Vector{{0, NAN}}; }
+  } plant;
+  EXPECT_EQ(
+      message_of<std::runtime_error>([&] { execute(plant, *cart::policy(), cart::candidates(1), cart::task(), kRng); }),
+      "the plant's true state at step 0 has p = nan, must be finite");
 }
 
 TEST(Execute, ACostIsSubtractedInEveryStep) {

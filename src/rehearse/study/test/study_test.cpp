@@ -95,6 +95,9 @@ TEST(Study, WrongInputIsRefused) {
   const std::string refused = rehearse::message_of<InvalidInput>([&] { swings.run(); });
   EXPECT_NE(refused.find(swings.logs.front().name + ": zero_s = 100, must be less than its "), std::string::npos)
       << refused;
+  swings.options.zero_s = 0.1;
+  EXPECT_EQ(rehearse::message_of<InvalidInput>([&] { swings.run(); }),
+            "zero_s = 0.1, must be at least the 0.2 s that parameters are fitted to (fit_horizon_s = 0.2)");
   swings.options.zeros = "";
   swings.logs.front().episode = swings.logs.front().episode.part(0, 3);
   swings.logs.resize(2);

@@ -19,20 +19,22 @@ Vector expected(double u) {
 void expect_near(const Vector& ours, const Vector& theirs, const char* what) {
   ASSERT_EQ(ours.size(), theirs.size());
   for (Index i = 0; i < ours.size(); ++i)
-    EXPECT_TRUE(std::isnan(theirs(i)) ? std::isnan(ours(i))
-                                      : std::abs(ours(i) - theirs(i)) <= 1e-14 * (1 + std::abs(theirs(i))))
+    EXPECT_TRUE(std::isnan(theirs(i))
+                    ? std::isnan(ours(i))
+                    : ours(i) == theirs(i) || std::abs(ours(i) - theirs(i)) <= 1e-14 * (1 + std::abs(theirs(i))))
         << what << " of function " << i << ": " << ours(i) << ", expected " << theirs(i);
 }
 
 TEST(Pack, HasTheFunctionsOfANumber) {
-  const Vector U{{-3, -1, -0.4, 0, 0.3, 1, 2, 8, 50, -700, kNaN}};
+  const Vector U{{-3, -1, -0.4, 0, 0.3, 1, 2, 8, 50, 2000, -700, kNaN}};
   Matrix dX(U.size(), 10);
   equation_kernel().change(Matrix::Zero(U.size(), 10), U, kOffset.data(), 1, 1, dX);
   for (Index i = 0; i < U.size(); ++i) {
     Vector slope(10);
     equation_kernel().derivative(kStart.data(), &U(i), kOffset.data(), slope.data());
     expect_near(slope, expected(U(i)), "slope");
-    if (U(i) > 0) expect_near(dX.row(i).transpose(), expected(U(i)), "change");  // else a root is NaN, and so the row
+    if (U(i) > 0 && U(i) < 700)  // else a root is NaN, or the exponential infinite, and so is the row
+      expect_near(dX.row(i).transpose(), expected(U(i)), "change");
   }
 }
 
