@@ -79,8 +79,8 @@ function ground(bounds: Bounds, size: number, tick: number): SVGElement {
 function frameAt(frames: LineMotion['frames'] | null | undefined, frame: number): number[] | null {
   if (!frames || frames.length === 0) return null
   const before = frames[Math.min(Math.floor(frame), frames.length - 1)] ?? []
-  const after = frames[Math.min(Math.floor(frame) + 1, frames.length - 1)] ?? []
   const part = frame - Math.floor(frame)
+  const after = part > 0 ? (frames[Math.min(Math.floor(frame) + 1, frames.length - 1)] ?? []) : before
   const numbers = before.map((value, i) => {
     const next = after[i]
     return present(value) && present(next) ? value + part * (next - value) : NaN
