@@ -190,7 +190,8 @@ class Robot:
         how: dict[str, Any] = {"rate": dict(model.rates), "define": dict(mapping(f"{name}: define", model.define))}
         if model.change is not None:
             how = {"function": name}
-            self._functions.append(("add_dynamics", name, model.change, [text(f"{name}: a name of parameters", key) for key in model.parameters]))
+            names = [text(f"{name}: a name of parameters", key) for key in model.parameters]
+            self._functions.append(("add_dynamics", name, model.change, names))
         return table(f"[dynamics.{value(name)}]", {**how, "parameters": _parameters(name, model)})
 
     def _plant(self, plant: Any, observe: Any, task: Task, taken: Sequence[str],

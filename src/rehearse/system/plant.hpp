@@ -5,7 +5,8 @@
 
 namespace rehearse::system {
 
-/// The system that a trial runs on: a real robot, a simulator playing one, an external program. Stateful; one thread.
+/// The system that a trial runs on: a real robot, a simulator playing one, an external program. Angles count turns on;
+/// `with_turns_counted` (counted_turns.hpp) is for robots that measure them within one. Stateful; one thread.
 class Plant {
  public:
   virtual ~Plant() = default;
