@@ -101,11 +101,13 @@ class MapElites(_Search):
     """MAP-Elites (Mouret 2015): the best solution of each niche of a space of descriptors. It MAXIMISES.
 
     bounds: (low, high) of each parameter of a solution. descriptor_bounds: of each descriptor. niches: of a centroidal
-    Voronoi tessellation, 1000 by default; bins: instead, of a grid, one number a descriptor. options: batch=512, initial=1024, ….
+    Voronoi tessellation, 1000 by default; bins: instead, of a grid, one number a descriptor. options: batch=512,
+    initial=1024, ….
     """
 
     def __init__(self, bounds: npt.ArrayLike, descriptor_bounds: npt.ArrayLike, *,
-                 niches: Union[int, None] = None, bins: Union[Sequence[int], None] = None, seed: int = 1, **options: Any) -> None:
+                 niches: Union[int, None] = None, bins: Union[Sequence[int], None] = None, seed: int = 1,
+                 **options: Any) -> None:
         texts = {name: option_text(value) for name, value in options.items()}
         if niches is not None and bins is not None:
             raise _core.InvalidInput("niches and bins: only one of them at a time")

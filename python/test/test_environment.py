@@ -57,6 +57,24 @@ def test_angles_begin_in_the_turn_of_the_start(tmp_path):
     assert np.abs(run.trajectory(1)["angle"] - np.pi).max() < 0.02
 
 
+def test_angles_of_single_precision_are_counted_on(tmp_path):
+    """The π of single precision is larger than π."""
+
+    class Single:
+        def reset(self, seed=None):
+            return np.array([0.0, np.pi], dtype=np.float32)
+
+        def step(self, action):
+            return np.array([0.0, 0.02 - np.pi], dtype=np.float32)
+
+    robot = rehearse.Robot("hanging", dt_s=0.1, horizon=1,
+                           states=[rehearse.State("rate"), rehearse.State("angle", angle=True, start=np.pi)],
+                           actions=[rehearse.Action("u", (-1, 1))], reward="exp(-(angle - pi)^2)", plant=Single())
+    angles = learn(robot, tmp_path / "run", learner="black-drops", trials=1).trajectory(1)["angle"]
+    assert angles[0] == np.float32(np.pi) > np.pi
+    np.testing.assert_allclose(angles[1], np.pi + 0.02, atol=1e-6)
+
+
 def test_a_real_robot_is_made_once_at_a_time_however_it_is_made():
     class Real(Environment):
         def end(self):

@@ -304,32 +304,43 @@ def test_an_angle_may_be_turns_away_from_its_start(tmp_path, silent):
 
 
 class Wheel:
-    """Turns by 1 rad a step, there and back; its angle is between low and low + 2 π."""
+    """Turns by these rad, one a step, whatever the action; its angle is between low and low + 2 π, or counts on."""
 
-    def __init__(self, low):
-        self.low = low
+    def __init__(self, low, rates):
+        self.low, self.rates = low, rates
 
     def shown(self):
-        return [(self.angle - self.low) % (2 * np.pi) + self.low]
+        return [self.angle if np.isinf(self.low) else (self.angle - self.low) % (2 * np.pi) + self.low]
 
     def reset(self, seed=None):
-        self.angle = 0.5
+        self.angle, self.step_of = 0.5, 0
         return self.shown()
 
     def step(self, action):
-        self.angle += float(action[0])
+        self.angle += self.rates[self.step_of]
+        self.step_of += 1
         return self.shown()
+
+
+def angles_of(wheel, folder, angle=True):
+    """The state of a wheel in each of two trials."""
+    robot = rehearse.Robot("wheel", dt_s=0.1, horizon=len(wheel.rates),
+                           states=[rehearse.State("angle", angle=angle, start=0.5)],
+                           actions=[rehearse.Action("push", (0, 2))], reward="cos(angle)", plant=wheel)
+    run = learn(robot, folder, learner="black-drops", trials=2)
+    return [run.trajectory(trial)["angle"] for trial in (1, 2)]
 
 
 @pytest.mark.parametrize("low", [-np.pi, 0, -np.inf])
 def test_an_angle_inside_of_one_turn_is_counted_on(low, tmp_path, silent):
-    wheel = Wheel(low)
-    wheel.shown = (lambda: [wheel.angle]) if np.isinf(low) else wheel.shown
-    robot = rehearse.Robot("wheel", dt_s=0.1, horizon=30, states=[rehearse.State("angle", angle=True, start=0.5)],
-                           actions=[rehearse.Action("push", (0, 2))], reward="cos(angle)", plant=wheel)
-    driven = learn(robot, tmp_path / "run", learner="black-drops", trials=1).trajectory(1)
-    assert driven["angle"][0] == 0.5 and driven["angle"].max() > 7
-    np.testing.assert_allclose(np.diff(driven["angle"]), driven["push"][:-1])
+    there_and_back = [1.0] * 10 + [-1.0] * 20
+    for angles in angles_of(Wheel(low, there_and_back), tmp_path / "run"):
+        assert angles[0] == 0.5
+        np.testing.assert_allclose(np.diff(angles), there_and_back)
+    if np.isinf(low):
+        np.testing.assert_allclose(angles_of(Wheel(low, [20.0]), tmp_path / "fast")[0], [0.5, 20.5])
+    plain = angles_of(Wheel(-np.pi, [3.0]), tmp_path / "plain", angle=False)
+    assert plain[0][1] == pytest.approx(3.5 - 2 * np.pi)
 
 
 @pytest.mark.parametrize("returned, message", [

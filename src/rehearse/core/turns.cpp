@@ -2,14 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace rehearse {
-namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-
-}  // namespace
 
 bool within_one_turn(double low, double high) {
   constexpr double kLittle = 1e-6;  // the bounds in single precision are up to 2e-7 beyond
@@ -17,15 +11,16 @@ bool within_one_turn(double low, double high) {
   return within(-std::numbers::pi) || within(0);
 }
 
-void TurnCounter::begin() { begun_ = false; }
+double turns_towards(double other, double angle) { return std::nearbyint((other - angle) / kTurn); }
+
+void TurnCounter::begin() { last_.reset(); }
 
 double TurnCounter::counted(double given) {
-  if (!begun_) last_ = given;
-  const bool within = within_one_turn(std::min(last_, given), std::max(last_, given));
-  if (!begun_) turns_ = within ? std::nearbyint((start_ - given) / kTurn) : 0;
-  const double jump = given - last_;
+  const double last = last_.value_or(given), jump = given - last;
+  const bool within = within_one_turn(std::min(last, given), std::max(last, given));
+  if (!last_) turns_ = within ? turns_towards(start_, given) : 0;
   if (within && std::abs(jump) > std::numbers::pi) turns_ -= std::copysign(1, jump);
-  begun_ = true, last_ = given;
+  last_ = given;
   return given + kTurn * turns_;
 }
 
@@ -44,10 +39,7 @@ Vector Turns::counted(Vector given) {
 
 Vector Turns::beside(Vector truth, const Vector& measured) const {
   if (truth.size() != measured.size()) return truth;
-  for (const Index angle : angles_) {
-    const double turns = std::nearbyint((measured(angle) - truth(angle)) / kTurn);
-    if (turns != 0) truth(angle) += turns * kTurn;
-  }
+  for (const Index angle : angles_) truth(angle) += kTurn * turns_towards(measured(angle), truth(angle));
   return truth;
 }
 

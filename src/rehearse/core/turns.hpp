@@ -1,18 +1,24 @@
 #pragma once
 
-#include <limits>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "rehearse/core/types.hpp"
 
 namespace rehearse {
 
+inline constexpr double kTurn = 2 * std::numbers::pi;
+
 /// True if angles from low to high lie from −π to π or from 0 to 2π, also in single precision.
 bool within_one_turn(double low, double high);
 
+/// How many whole turns bring an angle nearest to another.
+double turns_towards(double other, double angle);
+
 /// Use it for an angle that a sensor or arctan2 gives within one turn: it counts turns on, from the one nearest to
-/// `start` [rad]. Angles beyond one turn stay as they are. A change by more
-/// than π is taken for a turn, so that a robot which turns faster must count itself. One thread.
+/// `start` [rad]. Angles beyond one turn stay as they are. A change by more than π is taken for a turn, so that a robot
+/// which turns faster must count itself. One thread.
 class TurnCounter {
  public:
   explicit TurnCounter(double start) : start_(start) {}
@@ -21,8 +27,7 @@ class TurnCounter {
 
  private:
   double start_, turns_ = 0;
-  double last_ = std::numeric_limits<double>::quiet_NaN();  // as it was given
-  bool begun_ = false;
+  std::optional<double> last_;  // as it was given; none: the episode is to begin
 };
 
 /// The same for the states of a robot that are angles. One thread.

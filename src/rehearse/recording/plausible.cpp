@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -15,7 +14,6 @@
 namespace rehearse::recording {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kRounding = 1e-3;  // of an action's range
 constexpr double kOutlier = 10;     // times what is usual
 constexpr double kMuchLate = 0.1;   // of a control step
@@ -105,20 +103,19 @@ Index unwrap(Channel& angle, double start) {
   const auto [low, high] = std::ranges::minmax(values);
   Index turned = 0;
   if (high - low > kTurn * (1 + 1e-6)) return 0;
-  double turns = within_one_turn(low, high) ? std::nearbyint((start - values.front()) / kTurn) : 0;
-  angle.samples.front().value += turns * kTurn;
+  double turns = within_one_turn(low, high) ? turns_towards(start, values.front()) : 0;
+  angle.samples.front().value += kTurn * turns;
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double change = values[i] - values[i - 1];
     if (std::abs(change) > kTurn / 2) turns -= std::copysign(1, change), ++turned;
-    if (turns != 0) angle.samples[i].value += turns * kTurn;
+    angle.samples[i].value += kTurn * turns;
   }
   return turned;
 }
 
 void move_beside(Channel& angle, double start) {
-  const double turns = std::nearbyint((start - angle.samples.front().value) / kTurn);
-  if (turns == 0) return;
-  for (Sample& sample : angle.samples) sample.value += turns * kTurn;
+  const double turns = turns_towards(start, angle.samples.front().value);
+  for (Sample& sample : angle.samples) sample.value += kTurn * turns;
 }
 
 void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::vector<std::string>& notes) {

@@ -27,6 +27,12 @@ TEST(TurnCounter, LeavesAnglesAloneThatCountOnThemselves) {
   for (const double angle : {6.4, 7.0, 12.0, 3.0, -3.5}) EXPECT_EQ(counter.counted(angle), angle);
 }
 
+TEST(TurnCounter, AChangeOfManyTurnsIsNone) {
+  TurnCounter counter(0.5);
+  EXPECT_EQ(counter.counted(0.5), 0.5);
+  EXPECT_EQ(counter.counted(20.5), 20.5);
+}
+
 TEST(TurnCounter, TakesSinglePrecision) {
   TurnCounter counter(std::numbers::pi);
   EXPECT_GT(static_cast<float>(std::numbers::pi), std::numbers::pi);
