@@ -163,7 +163,8 @@ py::dict describe(const Robot& robot, const std::string& folder) {
   const Spec& spec = resolved.spec;
   py::list trials;
   for (const experiment::TrialRecord& trial : history.trials) trials.append(trial_of(trial, names));
-  py::object asked = py::none();
+  py::object asked = py::none(), best = py::none();
+  if (!history.trials.empty()) best = trial_of(experiment::best_trial(history.trials), names);
   if (history.asked) asked = trial_of(*history.asked, names);
   py::dict options;
   for (const auto& [name, value] : spec.options) options[py::str(name)] = value;
@@ -177,7 +178,7 @@ py::dict describe(const Robot& robot, const std::string& folder) {
                   py::arg("until_solved") = spec.until_solved, py::arg("options") = options, py::arg("trials") = trials,
                   py::arg("states") = states, py::arg("actions") = actions,
                   py::arg("dt_s") = resolved.scenario.task.dt_s, py::arg("horizon") = resolved.scenario.task.horizon,
-                  py::arg("in_use") = status.in_use, py::arg("asked") = asked);
+                  py::arg("in_use") = status.in_use, py::arg("asked") = asked, py::arg("best") = best);
 }
 
 Policy policy(const Robot& robot, const std::string& folder, std::optional<Index> trial) {

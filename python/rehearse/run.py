@@ -23,7 +23,7 @@ from .policy import Policy
 from .progress import show
 from .robot import Robot
 from .tables import TEXTS, WHOLE, as_files, from_csv, html_table, read_csv, without_path
-from .trial import Trial, best_of
+from .trial import Trial
 
 PathLike = Union[str, os.PathLike[str]]
 Progress = Union[Callable[[dict[str, Any]], None], None]
@@ -87,7 +87,8 @@ class Run:
     def best(self) -> Union[Trial, None]:
         """The trial of the highest return, of equals the first, none that was cut short unless all were; None before
         there is one."""
-        return best_of(self.details)
+        best = self._describe()["best"]
+        return Trial(**best) if best else None
 
     @property
     def solved_at(self) -> Union[int, None]:
@@ -191,10 +192,9 @@ class Run:
         return f"<p>{escape(head)}, seed {about['seed']}, in {escape(str(self.folder))}</p>{html_table(columns, rows)}"
 
     def __repr__(self) -> str:
-        trials = self.details
-        best = best_of(trials)
-        earned = f", best return {best.total_reward:.4g}" if best else ""
-        return f"<rehearse.Run {self.folder}: {len(trials)} trials{earned}>"
+        about = self._describe()
+        earned = f", best return {about['best']['total_reward']:.4g}" if about["best"] else ""
+        return f"<rehearse.Run {self.folder}: {len(about['trials'])} trials{earned}>"
 
     @property
     def _core(self) -> Any:

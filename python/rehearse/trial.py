@@ -25,9 +25,3 @@ class Trial:
     limits: list[dict[str, Any]]
     warnings: list[str]
     notes: list[str]
-
-
-def best_of(trials: list[Trial]) -> Union[Trial, None]:
-    """The trial of the highest return, of equals the first; none that was cut short, unless all were."""
-    compared = [trial for trial in trials if not trial.cut_short] or trials[:1]
-    return max(compared, key=lambda trial: trial.total_reward) if compared else None

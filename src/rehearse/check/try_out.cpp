@@ -15,7 +15,7 @@
 #include "rehearse/policy/schedule.hpp"
 #include "rehearse/recording/rates.hpp"
 #include "rehearse/rollout/execute.hpp"
-#include "rehearse/statistics/root_mean_squares.hpp"
+#include "rehearse/statistics/columns.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::check {
@@ -181,7 +181,7 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
   if (const std::string line = why_falls_pay(task, steps.rewards); !line.empty()) tried.notes.push_back(line);
   append(tried.notes, where_turns_count(task, seed));
   if (steps.size() == 0) return tried;
-  tried.change = statistics::root_mean_squares(steps.changes);
+  tried.change = statistics::column_root_mean_squares(steps.changes);
   if (scenario.policy) append(tried.notes, notes_on_scales(task, *scenario.policy, steps.states));
   append(tried.notes, recording::notes_on_rates(task, steps.states, steps.states + steps.changes));
   append(tried.broken, broken_row_laws(task, steps.states, steps.actions, steps.changes));

@@ -10,7 +10,7 @@
 #include "rehearse/check/row_laws.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/stopwatch.hpp"
-#include "rehearse/statistics/root_mean_squares.hpp"
+#include "rehearse/statistics/columns.hpp"
 #include "rehearse/system/simulator.hpp"
 
 namespace rehearse::check {
@@ -117,7 +117,7 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
     tried.failed = system::change_contained(*prior.simulator, steps.states, steps.actions, phi, predicted);
     tried.rows_per_s = std::max(tried.rows_per_s, watch.per_s(steps.size()));
   }
-  tried.error = statistics::root_mean_squares(predicted - steps.changes);
+  tried.error = statistics::column_root_mean_squares(predicted - steps.changes);
   tried.broken = broken_law(task, prior, steps, before, predicted);
   if (tried.failed > 0) tried.notes.push_back(without_prediction(task, steps.states, steps.actions, predicted));
   const std::string rounded = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
@@ -127,8 +127,8 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
                     "repeat about as far; NumPy needs contiguous columns, np.asfortranarray(states)",
                     rounded));
   const Matrix as_next = predicted - steps.states - steps.changes;
-  const std::string worse = worse_than_nothing(task, tried.error, statistics::root_mean_squares(as_next),
-                                               statistics::root_mean_squares(steps.changes));
+  const std::string worse = worse_than_nothing(task, tried.error, statistics::column_root_mean_squares(as_next),
+                                               statistics::column_root_mean_squares(steps.changes));
   if (!worse.empty()) tried.notes.push_back(worse);
   tried.idle = idle_parameters(prior, steps, wide, predicted);
   return tried;

@@ -5,8 +5,7 @@
 // Highway's order matters: the functions come after the target.
 #include <hwy/contrib/math/math-inl.h>
 
-#include "rehearse/core/exponential-inl.hpp"
-#include "rehearse/core/sine-inl.hpp"
+#include "rehearse/core/elementary-inl.hpp"
 #include "rehearse/core/vector_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,16 +29,11 @@ HWY_INLINE void map(const double* in, double* out, Index n, F f) {
   for (Index k = i; k < n; ++k) out[k] = tail[k - i];
 }
 
-template <class V>
-HWY_INLINE V keep_nan(V in, V out) {
-  return hn::IfThenElse(hn::IsNaN(in), in, out);
-}
-
 void ExpKernel(const double* in, double* out, Index n) {
   map(in, out, n, [](D d, auto x) HWY_ATTR { return exponential(d, x); });
 }
 void TanhKernel(const double* in, double* out, Index n) {
-  map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Tanh(d, x)); });
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return hyperbolic_tangent(d, x); });
 }
 
 void SinKernel(const double* in, double* out, Index n) {

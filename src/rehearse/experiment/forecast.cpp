@@ -1,11 +1,6 @@
 #include "rehearse/experiment/forecast.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "rehearse/rollout/forecast.hpp"
-#include "rehearse/statistics/quantiles.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -34,30 +29,6 @@ ForecastError compare(const Task& task, const Episode& episode, Index horizon, c
   return error;
 }
 
-std::vector<double> sorted_finite(const Matrix& states, Index column) {
-  std::vector<double> values;
-  for (double value : states.col(column))
-    if (std::isfinite(value)) values.push_back(value);
-  std::sort(values.begin(), values.end());
-  return values;
-}
-
-/// The mean, computed relative to the first value, so that the mean of equal values is that value.
-double mean(const std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  double sum = 0;
-  for (double value : values) sum += value - values.front();
-  return values.front() + sum / static_cast<double>(values.size());
-}
-
-double deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-  const double middle = mean(values);
-  double sum = 0;
-  for (double value : values) sum += (value - middle) * (value - middle);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
 }  // namespace
 
 std::vector<ForecastError> forecast_errors(const dynamics::DynamicsModel& model, const Task& task,
@@ -67,24 +38,6 @@ std::vector<ForecastError> forecast_errors(const dynamics::DynamicsModel& model,
   std::vector<ForecastError> errors;
   for (std::size_t i = 0; i < horizons.size(); ++i) errors.push_back(compare(task, episode, horizons[i], predicted[i]));
   return errors;
-}
-
-Vector mean_of_finite(const Matrix& states) {
-  Vector means(states.cols());
-  for (Index s = 0; s < states.cols(); ++s) means(s) = mean(sorted_finite(states, s));
-  return means;
-}
-
-Vector deviations_of_finite(const Matrix& states) {
-  Vector found(states.cols());
-  for (Index s = 0; s < states.cols(); ++s) found(s) = deviation(sorted_finite(states, s));
-  return found;
-}
-
-Vector quantiles(const Matrix& states, double fraction) {
-  Vector found(states.cols());
-  for (Index s = 0; s < states.cols(); ++s) found(s) = statistics::quantile(sorted_finite(states, s), fraction);
-  return found;
 }
 
 }  // namespace rehearse::experiment

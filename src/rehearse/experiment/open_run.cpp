@@ -11,6 +11,7 @@
 #include "rehearse/recording/driven.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/rollout/simulate.hpp"
+#include "rehearse/statistics/columns.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -21,7 +22,7 @@ constexpr Index kPredictionParticles = 100;
 Matrix mean_states(const rollout::Recorded& recorded) {
   Matrix means(recorded.states.size(), recorded.states.front().cols());
   for (std::size_t t = 0; t < recorded.states.size(); ++t)
-    means.row(static_cast<Index>(t)) = mean_of_finite(recorded.states[t]);
+    means.row(static_cast<Index>(t)) = statistics::column_means(recorded.states[t]);
   return means;
 }
 

@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/core/names.hpp"
-#include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/files/csv.hpp"
+#include "rehearse/statistics/columns.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -53,13 +53,13 @@ void add_moments_header(Row& header, const Task& task) {
 
 /// No reward is earned by the start.
 void add_moments(Row& row, const rollout::Recorded& recorded, const ExpectedEpisode& moments, Index t) {
-  add_numbers(row, deviations_of_finite(recorded.states[static_cast<std::size_t>(t)]));
+  add_numbers(row, statistics::column_deviations(recorded.states[static_cast<std::size_t>(t)]));
   add_numbers(row, moments.states.row(t));
   add_numbers(row, moments.state_deviations.row(t));
   if (t == 0) return row.resize(row.size() + 4);
   const Matrix rewards = recorded.rewards.col(t - 1);
-  add_numbers(row, mean_of_finite(rewards));
-  add_numbers(row, deviations_of_finite(rewards));
+  add_numbers(row, statistics::column_means(rewards));
+  add_numbers(row, statistics::column_deviations(rewards));
   add_numbers(row, Vector{{moments.rewards(t - 1), moments.reward_deviations(t - 1)}});
 }
 
@@ -216,8 +216,8 @@ std::string prediction_csv(const Task& task, const rollout::Recorded& recorded, 
     const Matrix& states = recorded.states[t];
     const Index going = (states.col(0).array() == states.col(0).array()).count();  // the others are NaN
     Row row = {files::Csv::cell(seconds(static_cast<Index>(t), task.dt_s)), files::Csv::cell(going)};
-    add_numbers(row, mean_of_finite(states));
-    for (double fraction : kFractions) add_numbers(row, quantiles(states, fraction));
+    add_numbers(row, statistics::column_means(states));
+    for (double fraction : kFractions) add_numbers(row, statistics::column_quantiles(states, fraction));
     if (moments) add_moments(row, recorded, *moments, static_cast<Index>(t));
     csv.row(row);
   }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -13,8 +11,7 @@
 namespace rehearse::expression {
 namespace {
 
-constexpr double kLargestChain = 16;  // a power by so many multiplications is still cheaper than pow
-constexpr int kDeepest = 10000;       // operations one inside another, through which functions here call themselves
+constexpr int kDeepest = 10000;  // operations one inside another, through which functions here call themselves
 
 bool commutes(Op op) {
   return op == Op::add || op == Op::multiply || op == Op::equal || op == Op::not_equal || op == Op::logical_and ||
@@ -78,7 +75,11 @@ Node TapeBuilder::operation(Op op, Node a, Node b, Node c) {
   const auto number = [&](Node node) { return node == kNone ? 0 : at(node).number; };
   const auto known = [&](Node node) { return node == kNone || constant_of(node); };
   if (known(a) && known(b) && known(c)) return constant(evaluate(op, number(a), number(b), number(c)));
-  if (const Node simpler = simplified(op, a, b); simpler != kNone) return simpler;
+  const Node simpler = simplified(op, a, b);
+  return simpler != kNone ? simpler : as_it_is(op, a, b, c);
+}
+
+Node TapeBuilder::as_it_is(Op op, Node a, Node b, Node c) {
   if (commutes(op) && a > b) std::swap(a, b);
   if (const auto there = operations_.find({op, a, b, c}); there != operations_.end()) return there->second;
   Value value{.kind = Value::Kind::operation, .pace = Pace::call, .op = op, .a = a, .b = b, .c = c};
@@ -88,65 +89,6 @@ Node TapeBuilder::operation(Op op, Node a, Node b, Node c) {
   if (value.depth > kDeepest)
     throw InvalidInput(fmt::format("formulas have more than {} operations one inside another", kDeepest));
   return operations_[{op, a, b, c}] = add(value);
-}
-
-Node TapeBuilder::simplified(Op op, Node a, Node b) {
-  switch (op) {
-    case Op::add:
-      return is(a, 0) ? b : is(b, 0) ? a : kNone;
-    case Op::subtract:
-      return is(b, 0) ? a : kNone;
-    case Op::multiply:
-      return is(a, 1) ? b : is(b, 1) ? a : kNone;
-    case Op::divide:
-      return is(b, 1) ? a : quotient(a, b);
-    case Op::power:
-      return power(a, b);
-    case Op::sine:
-    case Op::cosine:
-      return trigonometric(op, a);
-    default:
-      return kNone;
-  }
-}
-
-/// Divisions take a processor ten times as long as products, and equations divide by the same number again and again.
-Node TapeBuilder::quotient(Node a, Node b) {
-  if (is(a, 1) || constant_of(b)) return kNone;
-  return operation(Op::multiply, a, operation(Op::divide, constant(1), b));
-}
-
-Node TapeBuilder::power(Node base, Node exponent) {
-  const double* constant_exponent = constant_of(exponent);
-  if (!constant_exponent) return kNone;
-  const double n = *constant_exponent;
-  if (n == 0) return constant(1);
-  if (n == 0.5) return operation(Op::square_root, base);
-  if (n != std::floor(n) || std::abs(n) > kLargestChain) return kNone;
-  Node product = base;
-  for (int i = 1; i < std::abs(static_cast<int>(n)); ++i) product = operation(Op::multiply, product, base);
-  return n > 0 ? product : operation(Op::divide, constant(1), product);
-}
-
-std::optional<TapeBuilder::Trigonometry> TapeBuilder::trigonometry_of(Node node) {
-  if (const auto known = trigonometry_.find(node); known != trigonometry_.end()) return known->second;
-  const Value value = at(node);
-  if (value.kind != Value::Kind::operation || (value.op != Op::add && value.op != Op::subtract)) return {};
-  const auto a = trigonometry_of(value.a), b = trigonometry_of(value.b);
-  if (!a || !b) return {};
-  const auto times = [&](Node x, Node y) { return operation(Op::multiply, x, y); };
-  const bool sum = value.op == Op::add;
-  const Trigonometry both{
-      operation(sum ? Op::add : Op::subtract, times(a->sine, b->cosine), times(a->cosine, b->sine)),
-      operation(sum ? Op::subtract : Op::add, times(a->cosine, b->cosine), times(a->sine, b->sine))};
-  trigonometry_[node] = both;
-  return both;
-}
-
-Node TapeBuilder::trigonometric(Op op, Node a) {
-  const auto known = trigonometry_of(a);
-  if (!known) return kNone;
-  return op == Op::sine ? known->sine : known->cosine;
 }
 
 namespace {

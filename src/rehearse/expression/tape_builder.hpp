@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "rehearse/expression/tape.hpp"
@@ -57,16 +58,19 @@ class TapeBuilder {
   const Value& at(Node node) const { return values_[static_cast<std::size_t>(node)]; }
   Node add(const Value& value);
   bool is(Node node, double value) const;
-  Node simplified(Op op, Node a, Node b);  // kNone: it is as simple as it can be
-  Node quotient(Node a, Node b);           // likewise
-  Node power(Node base, Node exponent);    // likewise
-  Node trigonometric(Op op, Node a);       // likewise
+  Node as_it_is(Op op, Node a, Node b, Node c);
+  Node simplified(Op op, Node a, Node b);    // kNone: it is as simple as it can be
+  Node quotient(Node a, Node b);             // likewise
+  Node of_divisions(Op op, Node a, Node b);  // likewise
+  Node power(Node base, Node exponent);      // likewise
+  Node trigonometric(Op op, Node a);         // likewise
   std::optional<Trigonometry> trigonometry_of(Node node);
 
   std::vector<Value> values_;
   std::map<std::uint64_t, Node> constants_;  // by their bits
   std::map<Key, Node> operations_;
   std::map<Node, Trigonometry> trigonometry_;
+  std::map<Node, std::pair<Node, Node>> quotients_;  // a and b of products a (1/b)
 };
 
 }  // namespace rehearse::expression

@@ -11,8 +11,7 @@
 #include <hwy/contrib/math/math-inl.h>
 
 #include "rehearse/core/dormand_prince.hpp"
-#include "rehearse/core/exponential-inl.hpp"
-#include "rehearse/core/sine-inl.hpp"
+#include "rehearse/core/elementary-inl.hpp"
 #include "rehearse/expression/scalar.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,7 +40,8 @@ HWY_INLINE void each(double* out, const double* a, const double* b, const double
     hn::Store(f(hn::Load(d, a + i), hn::Load(d, b + i), hn::Load(d, c + i)), d, out + i);
 }
 
-HWY_INLINE V keep_nan(V in, V out) { return hn::IfThenElse(hn::IsNaN(in), in, out); }
+using rehearse::HWY_NAMESPACE::keep_nan;
+
 HWY_INLINE V smaller(V a, V b) { return hn::IfThenElse(hn::Or(hn::IsNaN(a), hn::Lt(a, b)), a, b); }
 template <class M>
 HWY_INLINE V truth(M holds, V a, V b) {
@@ -66,9 +66,9 @@ HWY_NOINLINE void execute(const Instruction& i, double* slots, Index n) {
     case Op::cosine:
       return each(out, a, n, [d](V x) HWY_ATTR { return rehearse::HWY_NAMESPACE::cosine(d, x); });
     case Op::hyperbolic_tangent:
-      return each(out, a, n, [d](V x) HWY_ATTR { return keep_nan(x, hn::Tanh(d, x)); });
+      return each(out, a, n, [d](V x) HWY_ATTR { return rehearse::HWY_NAMESPACE::hyperbolic_tangent(d, x); });
     case Op::exponential:
-      return each(out, a, n, [](V x) HWY_ATTR { return rehearse::HWY_NAMESPACE::exponential(D(), x); });
+      return each(out, a, n, [d](V x) HWY_ATTR { return rehearse::HWY_NAMESPACE::exponential(d, x); });
     case Op::square_root:
       return each(out, a, n, [](V x) HWY_ATTR { return hn::Sqrt(x); });
     case Op::absolute:

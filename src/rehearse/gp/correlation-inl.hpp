@@ -68,11 +68,14 @@ HWY_INLINE V short_exp(V x) {
   return scale_by_power(p, shifted);
 }
 
-/// exp(−½ squared distance), 0 where it is below e^−80; `squared` may be infinite.
-HWY_INLINE V correlation(V squared) {
-  const V x = hn::Mul(squared, constant(-0.5)), cut = constant(-80);
+/// exp(x), 0 below e^−80. x ≤ 0 but for rounding, −∞ too.
+HWY_INLINE V small_exp(V x) {
+  const V cut = constant(-80);
   return hn::IfThenElseZero(hn::Gt(x, cut), short_exp(hn::Max(x, cut)));
 }
+
+/// exp(−½ squared distance); `squared` may be infinite.
+HWY_INLINE V correlation(V squared) { return small_exp(hn::Mul(squared, constant(-0.5))); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace rehearse::gp

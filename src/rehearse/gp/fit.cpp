@@ -114,8 +114,10 @@ struct Problem {
 
   /// The given start, or the default one if that is better.
   Point first_start(const FitStart& start) {
-    Point given = at(bounds.clamped(start.hyperparameters.flat())), other = at(standard);
+    Point given = at(bounds.clamped(start.hyperparameters.flat()));
     given.inverse_hessian = start.inverse_hessian;
+    if (given.flat == standard) return given;
+    const Point other = at(standard);
     return better(other, given) ? other : given;
   }
 

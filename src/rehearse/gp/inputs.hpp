@@ -28,7 +28,9 @@ class Inputs {
     return center_.binaryExpr(spread_, [](double c, double s) { return std::hypot(c, s); });
   }
 
-  Matrix values() const { return (unit_ * half_range_.asDiagonal()).rowwise() + center_.transpose(); }  // n × D, X
+  Matrix values() const {
+    return (unit_ * half_range_.asDiagonal()).rowwise() + center_.transpose();
+  }  // n × D: X but for rounding
 
   const Matrix& unit() const { return unit_; }              // n × D, (X − center) / half_range, in [−1, 1]
   const Vector& center() const { return center_; }          // D

@@ -23,7 +23,7 @@ class SlopeChunk : public PredictionChunk {
   /// Predicts as `predict` does with variances, to the bit, and computes what `slopes` needs of the same output.
   void linearise(const PosteriorOutput& output, Index rows) {
     const Index D = output.points.scaled.rows(), support = output.support, others = output.weights.size() - support;
-    const bool trend = output.points.trend.size() > 0, odd = output.images.scaled.size() > 0;
+    const bool trend = output.trend_form.size() > 0, odd = output.images.scaled.size() > 0;
     reserve(support, D, trend, odd);
     const KernelPoints queries{scaled.data(), trend ? z.data() : nullptr};
     const double* weights = output.weights.data();
@@ -62,7 +62,7 @@ class SlopeChunk : public PredictionChunk {
       }
     }
     if (scales.signs.size() > 0) add_image_slopes(scales, variance_by);
-    if (output.points.trend.size() > 0) add_trend_slopes(output, scales, mean_by, variance_by);
+    if (output.trend_form.size() > 0) add_trend_slopes(output, scales, mean_by, variance_by);
     for (Index q = 0; q < rows; ++q) {
       variance_by.row(q) *= variance(q, output) > 0 ? output.signal_variance : 0;
       if (!missing[q]) continue;

@@ -189,7 +189,9 @@ prior::Prior fixed(const prior::Prior& prior, const std::vector<Index>& discrete
     Parameter& parameter = parameters[static_cast<std::size_t>(discrete[i])];
     parameter = Parameter::fixed(parameter.name, choice(static_cast<Index>(i)), parameter.unit);
   }
-  return {prior.name, prior.simulator, ParameterSpace(std::move(parameters))};
+  prior::Prior other = prior;
+  other.space = ParameterSpace(std::move(parameters));
+  return other;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rehearse/gp/bounds.hpp"
 #include "rehearse/identification/coordinates.hpp"
 #include "rehearse/identification/last_targets.hpp"
 #include "rehearse/optim/least_squares.hpp"
@@ -13,10 +14,16 @@ namespace {
 
 constexpr double kExact = 1e-24;  // mean squared error, as a fraction of the changes' variance
 
-/// One-step errors as a function of φ; a row that fails has errors as large as the changes' standard deviations.
+/// One-step errors as a function of φ. A row that fails has errors as large as the largest ones at the start, and at
+/// least as large as the changes' standard deviations: a φ at which all rows fail is no better than the start.
 class OneStepErrors {
  public:
-  OneStepErrors(const dynamics::Residuals& residuals, const prior::Prior& prior) : targets_(residuals, prior) {}
+  OneStepErrors(const dynamics::Residuals& residuals, const prior::Prior& prior, const Vector& start)
+      : targets_(residuals, prior), charge_(residuals.scale().unaryExpr(&gp::usable_scale)) {
+    const Matrix errors = targets_.at(start);
+    for (Index i = 0; i < errors.rows(); ++i)
+      if (errors.row(i).allFinite()) charge_ = charge_.cwiseMax(errors.row(i).transpose().cwiseAbs());
+  }
 
   Matrix at(const Vector& phi) { return charged(targets_.at(phi)); }
 
@@ -44,11 +51,12 @@ class OneStepErrors {
   double rows() const { return static_cast<double>(targets_.residuals().size()); }
   Matrix charged(Matrix errors) const {
     for (Index i = 0; i < errors.rows(); ++i)
-      if (!errors.row(i).allFinite()) errors.row(i) = targets_.residuals().scale().transpose();
+      if (!errors.row(i).allFinite()) errors.row(i) = charge_.transpose();
     return errors;
   }
 
   LastTargets targets_;
+  Vector charge_;  // of each output
 };
 
 /// Searches φ for one combination of the discrete parameters, by descents from several starts.
@@ -96,13 +104,13 @@ class Descents {
 
 Identified least_squares(const dynamics::Residuals& residuals, const prior::Prior& prior,
                          const std::optional<Vector>& start, const LeastSquares& options) {
-  OneStepErrors errors(residuals, prior);
+  Vector phi = start.value_or(prior.space.values());
+  OneStepErrors errors(residuals, prior, phi);
   const auto score = [&](const Vector& phi) { return errors.score(errors.at(phi).squaredNorm()); };
   const bool continuous = !prior.space.of_kind(Parameter::Kind::continuous).empty();
   if (options.method == LeastSquares::Method::subplex || !continuous)
     return identify(prior.space, start, score, options.subplex);
   const std::vector<Index> discrete = prior.space.of_kind(Parameter::Kind::discrete);
-  Vector phi = start.value_or(prior.space.values());
   Identified best{.phi = phi, .score = -std::numeric_limits<double>::infinity()};
   for (const Vector& choice : choices_of(prior.space, discrete)) {
     phi(discrete) = choice;

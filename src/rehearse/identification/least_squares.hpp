@@ -27,8 +27,9 @@ struct LeastSquares {
   }
 };
 
-/// The φ of the least mean squared one-step error. A row that fails is charged the variance of the changes, so that a φ
-/// at which rows fail does not win by having fewer of them to predict.
+/// The φ of the least mean squared one-step error. A row that fails is charged the largest squared error at the start,
+/// at least the variance of the changes, so that a φ at which rows fail does not win by having fewer of them to
+/// predict.
 Identified least_squares(const dynamics::Residuals& residuals, const prior::Prior& prior,
                          const std::optional<Vector>& start, const LeastSquares& options);
 

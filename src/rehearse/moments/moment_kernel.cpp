@@ -22,12 +22,6 @@ enum class PairKind { rows, columns, triangle };
 HWY_INLINE V load(const double* p) { return hn::LoadU(kTag, p); }
 HWY_INLINE void add_to(double* p, V value) { hn::StoreU(hn::Add(load(p), value), kTag, p); }
 
-/// exp(x), 0 below e^−80. x ≤ 0 but for rounding.
-HWY_INLINE V exponential(V x) {
-  const V cut = constant(-80);
-  return hn::IfThenElseZero(hn::Gt(x, cut), short_exp(hn::Max(x, cut)));
-}
-
 constexpr int kGroup = 4;  // points of b taken together: their long chains of dependent operations overlap
 
 /// The exponentials of kGroup vectors at once, with short_exp's polynomial as even and odd powers, two chains half as
@@ -78,7 +72,7 @@ struct Loops {
     for (Index i = 0; i < a.stride; i += lanes()) {
       load_point(a, D, i, z);
       const V exponent = hn::Mul(quadratic(z, D, P), constant(-0.5));
-      hn::StoreU(hn::Mul(exponential(exponent), constant(factor)), kTag, q + i);
+      hn::StoreU(hn::Mul(small_exp(exponent), constant(factor)), kTag, q + i);
     }
   }
 

@@ -98,7 +98,7 @@ Vector RbfPolicy::gradient(const PolicyAdjoint& adjoint) const {
     add_covariance_gradient(a, by_targets, centres, log_lengths);
     const auto given = theta_.segment(lengths_at(a), features()).array();
     gradient.segment(lengths_at(a), features()) =
-        (given.abs() <= policy::kLargestLogLength).select(log_lengths.array(), 0);
+        (given.abs() < policy::kLargestLogLength).select(log_lengths.array(), 0);
     gradient.segment(targets_at(a), centres_) = by_targets;
   }
   gradient.segment(centres_at(), centres_ * features()) = centres.transpose().reshaped();

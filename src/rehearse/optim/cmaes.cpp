@@ -9,11 +9,10 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/optim/median.hpp"
+#include "rehearse/optim/usable.hpp"
 
 namespace rehearse::optim {
 namespace {
-
-constexpr double worst = -std::numeric_limits<double>::infinity();
 
 Index checked_population(const Vector& mean, double sigma, const std::vector<Interval>& box,
                          const CmaesOptions& options) {
@@ -25,8 +24,6 @@ Index checked_population(const Vector& mean, double sigma, const std::vector<Int
   violations.throw_if_any();
   return options.population > 0 ? options.population : default_population(mean.size());
 }
-
-double usable(const ConstVectorView& values, Index i) { return std::isfinite(values(i)) ? values(i) : worst; }
 
 Index default_generations(Index n, Index population) {  // Hansen 2009 (BIPOP)
   const double m = static_cast<double>(n) + 3;
@@ -77,7 +74,7 @@ Cmaes::Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box,
       sigma_(sigma),
       first_sigma_(sigma),
       best_x_(mean),
-      best_value_(worst) {
+      best_value_(kWorst) {
   if (options_.max_generations == 0) options_.max_generations = default_generations(mean.size(), population());
 }
 
@@ -109,7 +106,7 @@ void Cmaes::draw() {
 // point that is far better than the others says little of how noise changes ranks. Hansen 2011 (Injecting external
 // solutions into CMA-ES), eq. 4 and Table 1.
 void Cmaes::place_elite() {
-  elite_ = options_.elitism && best_value_ > worst ? generation_ % population() : kNone;
+  elite_ = options_.elitism && best_value_ > kWorst ? generation_ % population() : kNone;
   if (elite_ == kNone) return;
   const double n = static_cast<double>(dimension());
   const double longest = std::sqrt(n) + 2 * n / (n + 2);
@@ -151,17 +148,17 @@ const Vector& Cmaes::penalties(const ConstVectorView& values) {
 void Cmaes::rank(const ConstVectorView& values) {
   const Vector score = values - penalties(values);
   std::iota(order_.begin(), order_.end(), Index{0});
-  std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) { return usable(score, a) > usable(score, b); });
+  std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) { return usable(score(a)) > usable(score(b)); });
 }
 
 void Cmaes::keep_best(const ConstVectorView& values) {
   if (elite_ != kNone) {
-    best_value_ += (usable(values, elite_) - best_value_) / static_cast<double>(++best_count_);
-    if (!std::isfinite(best_value_)) best_value_ = worst;
+    best_value_ += (usable(values(elite_)) - best_value_) / static_cast<double>(++best_count_);
+    best_value_ = usable(best_value_);
   }
   for (Index i = 0; i < population(); ++i) {
-    if (i == elite_ || !(usable(values, i) > best_value_)) continue;
-    best_value_ = usable(values, i);
+    if (i == elite_ || !(usable(values(i)) > best_value_)) continue;
+    best_value_ = usable(values(i));
     best_x_ = candidates_.col(i);
     best_count_ = 1;
   }
@@ -228,8 +225,8 @@ void Cmaes::keep_inside() {
 }
 
 void Cmaes::record(const ConstVectorView& values) {
-  best_history_.push_back(usable(values, order_.front()));
-  median_history_.push_back(usable(values, order_[order_.size() / 2]));
+  best_history_.push_back(usable(values(order_.front())));
+  median_history_.push_back(usable(values(order_[order_.size() / 2])));
 }
 
 Stop Cmaes::find_stop(const ConstVectorView& values) const {
@@ -247,8 +244,8 @@ bool Cmaes::values_settled(const ConstVectorView& values) const {
       10 + std::ceil(30 * static_cast<double>(dimension()) / static_cast<double>(population())));
   if (std::ssize(best_history_) < window) return false;
   const auto [low, high] = std::minmax_element(best_history_.end() - window, best_history_.end());
-  const double least = std::min(*low, usable(values, order_.back()));
-  if (*high == worst) return false;  // no finite value yet says nothing about where to go, but nothing is settled
+  const double least = std::min(*low, usable(values(order_.back())));
+  if (*high == kWorst) return false;  // no finite value yet says nothing about where to go, but nothing is settled
   return *high - least <= options_.value_tolerance;
 }
 

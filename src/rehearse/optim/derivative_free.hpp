@@ -1,5 +1,5 @@
 #pragma once
-// Local and exhaustive maximisers of a function without gradient, for the parameters of a simulator.
+// A local maximiser of a function without gradient, for the parameters of a simulator.
 
 #include <functional>
 #include <string>
@@ -39,7 +39,7 @@ struct SubplexOptions {
 ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,
                               const SubplexOptions& options);
 
-/// Every combination of the choices, the last varying fastest; ties go to the first.
+/// Every combination of the choices, the last varying fastest.
 std::vector<Vector> combinations(const std::vector<std::vector<double>>& choices);
 
 }  // namespace rehearse::optim

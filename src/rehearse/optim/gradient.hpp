@@ -13,7 +13,7 @@ namespace rehearse::optim {
 using Differentiable = std::function<double(const Vector& x, Vector& gradient)>;
 
 struct GradientResult {
-  Vector x;      // the best point seen
+  Vector x;      // the best point that was accepted
   double value;  // there; not finite only if no point had a finite value
   Index evaluations;
   std::string stop;  // why: "converged", "max_evaluations", "no finite value"

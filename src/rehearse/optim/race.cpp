@@ -140,9 +140,9 @@ class Race {
 }  // namespace
 
 void RaceOptions::fields(FieldVisitor& v) {
-  v.integer("max_evaluations", max_evaluations, "evaluations of a search at most", at_least(1));
+  v.integer("max_evaluations", max_evaluations, "evaluations of a search at most", between(1, 1e15));
   v.integer("descents", descents, "CMA-ES runs that start and compete", between(1, 1e6));
-  v.integer("rounds", rounds, expert("rounds, of about equal numbers of evaluations"), at_least(1));
+  v.integer("rounds", rounds, expert("rounds, of about equal numbers of evaluations"), between(1, 1000));
   v.number("survivors", survivors, expert("fraction of the runs kept after each round"), between(0, 1));
   v.number("sigma", sigma, expert("initial step size of runs from random points"), above(0));
   v.number("start_sigma", start_sigma, expert("initial step size of runs from given points"), above(0));

@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/usable.hpp"
 
 namespace rehearse::optim {
 namespace {
-
-constexpr double worst = -std::numeric_limits<double>::infinity();
 
 void check(const Vector& start, const std::vector<Interval>& box, const SearchOptions& options) {
   Violations violations;
@@ -69,7 +68,7 @@ class Search {
   Index last_large_ = 0;         // evaluations of the last large descent
   Index large_ = 0, small_ = 0;  // evaluations of both regimes
   std::uint64_t numbered_ = 0;   // candidates so far
-  double best_ = worst;
+  double best_ = kWorst;
   Matrix scaled_;
   Vector values_, again_;
   std::vector<Candidate> bests_, means_;
@@ -93,7 +92,7 @@ Search::Search(const BatchObjective& objective, const Vector& start, const std::
     width_(i) = b.high - b.low;
   }
   result_.x = start;
-  result_.value = worst;
+  result_.value = kWorst;
 }
 
 SearchResult Search::run() {
@@ -202,10 +201,10 @@ void Search::evaluate(const ConstMatrixView& X, Index samples, VectorView values
 
 void Search::finish(const Cmaes& cmaes, const UncertaintyHandler& noise, Descent& descent) {
   const Index number = static_cast<Index>(result_.descents.size());
-  Vector mean_value = Vector::Constant(1, worst);
+  Vector mean_value = Vector::Constant(1, kWorst);
   const Vector mean = cmaes.mean();
   if (left() >= noise.samples()) evaluate(mean, noise.samples(), mean_value);
-  if (!std::isfinite(mean_value(0))) mean_value(0) = worst;
+  mean_value(0) = usable(mean_value(0));
   best_ = std::max(best_, mean_value(0));
   keep(bests_, {scaled(cmaes.best_x()), cmaes.best_value(), number, false}, options_.candidates);
   keep(means_, {scaled(mean), mean_value(0), number, true}, options_.candidates);
@@ -224,11 +223,10 @@ void Search::choose() {
     for (Index j = 0; j < X.cols(); ++j) X.col(j) = all[static_cast<std::size_t>(j)].x;
     objective_(X, numbered_, options_.final_samples, values);
     result_.evaluations += options_.final_samples * X.cols();
-    for (Index j = 0; j < X.cols(); ++j)
-      all[static_cast<std::size_t>(j)].value = std::isfinite(values(j)) ? values(j) : worst;
+    for (Index j = 0; j < X.cols(); ++j) all[static_cast<std::size_t>(j)].value = usable(values(j));
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
-  if (!(all.front().value > worst)) return;
+  if (!(all.front().value > kWorst)) return;
   result_.x = all.front().x;
   result_.value = all.front().value;
 }

@@ -9,11 +9,10 @@
 #include <fmt/format.h>
 
 #include "rehearse/optim/median.hpp"
+#include "rehearse/optim/usable.hpp"
 
 namespace rehearse::optim {
 namespace {
-
-double usable(double value) { return std::isfinite(value) ? value : -std::numeric_limits<double>::infinity(); }
 
 /// Ranks of both evaluations of every candidate among all 2λ, 1 the best. A candidate that was evaluated once stands
 /// for both.

@@ -5,6 +5,7 @@
 // Highway's order matters: the functions come after the target.
 #include <hwy/contrib/math/math-inl.h>
 
+#include "rehearse/core/elementary-inl.hpp"
 #include "rehearse/policy/layer_kernel.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,7 +28,7 @@ void LayerKernel(const double* weights, Index weight_stride, const double* in, I
                  double* out, Index out_stride, Index outputs, Index rows, bool tanh) {
   const D d;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
-  const auto activate = [&](auto a) HWY_ATTR { return tanh ? hn::IfThenElse(hn::IsNaN(a), a, hn::Tanh(d, a)) : a; };
+  const auto activate = [&](auto a) HWY_ATTR { return tanh ? rehearse::HWY_NAMESPACE::hyperbolic_tangent(d, a) : a; };
   Index row = 0;
   for (; row + lanes <= rows; row += lanes)
     for (Index o = 0; o < outputs; ++o) {

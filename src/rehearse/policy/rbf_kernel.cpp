@@ -9,6 +9,7 @@
 #include <hwy/aligned_allocator.h>
 #include <hwy/contrib/math/math-inl.h>
 
+#include "rehearse/core/elementary-inl.hpp"
 #include "rehearse/policy/rbf_kernel.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -34,10 +35,10 @@ HWY_INLINE V clamp(V x, double limit) {
   return hn::Max(hn::Set(d, -limit), hn::Min(x, hn::Set(d, limit)));
 }
 
-/// exp(−½ squared); Highway 1.0.3 turns exp(NaN) into 0.
+/// exp(−½ squared)
 HWY_INLINE V correlation(V squared) {
   const D d;
-  return hn::IfThenElse(hn::IsNaN(squared), squared, hn::Exp(d, hn::Mul(squared, hn::Set(d, -0.5))));
+  return rehearse::HWY_NAMESPACE::keep_nan(squared, hn::Exp(d, hn::Mul(squared, hn::Set(d, -0.5))));
 }
 
 HWY_INLINE V squared_distance(const Lanes& points, Index a, Index b, Index inputs) {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <numbers>
-
-#include "rehearse/core/types.hpp"
+#include "rehearse/core/turns.hpp"
 
 namespace rehearse::policy {
 
@@ -11,7 +9,7 @@ namespace rehearse::policy {
 template <class Reference>
 void difference_from(const Reference& reference, bool angle, const ConstVectorView& states,
                      Eigen::Ref<Eigen::ArrayXd> difference) {
-  constexpr double kLargestState = 1e100, kTurn = 2 * std::numbers::pi;
+  constexpr double kLargestState = 1e100;
   difference = states.array().min(kLargestState).max(-kLargestState) - reference;
   if (angle) difference -= kTurn * (difference / kTurn + 0.5).floor();
 }

@@ -140,19 +140,19 @@ Index Niches::find(const double* descriptor) const {
   double unit[KdTree::kMostDimensions];
   for (Index d = 0; d < dimensions(); ++d) {
     if (!std::isfinite(descriptor[d])) return -1;
-    unit[d] = (descriptor[d] - bounds_[static_cast<std::size_t>(d)].low) * per_unit_(d);
+    unit[d] = unit_at(d, descriptor[d]);
   }
-  if (is_grid()) return find_box(descriptor);
+  if (is_grid()) return find_box(unit);
   const Index found = table_.empty() ? -1 : table_.nearest(unit);
   return found >= 0 ? found : tree_.nearest(unit);
 }
 
-Index Niches::find_box(const double* descriptor) const {
+Index Niches::find_box(const double* unit) const {
   Index niche = 0;
   for (Index d = 0; d < dimensions(); ++d) {
     const auto bins = static_cast<double>(bins_[static_cast<std::size_t>(d)]);
-    const double at = (descriptor[d] - bounds_[static_cast<std::size_t>(d)].low) * per_unit_(d) * bins;
-    niche = niche * bins_[static_cast<std::size_t>(d)] + static_cast<Index>(std::clamp(std::floor(at), 0.0, bins - 1));
+    niche = niche * bins_[static_cast<std::size_t>(d)] +
+            static_cast<Index>(std::clamp(std::floor(unit[d] * bins), 0.0, bins - 1));
   }
   return niche;
 }
@@ -172,8 +172,7 @@ Vector Niches::centre(Index niche) const {
 
 Vector Niches::to_unit(const ConstVectorView& descriptor) const {
   Vector unit(dimensions());
-  for (Index d = 0; d < dimensions(); ++d)
-    unit(d) = (descriptor(d) - bounds_[static_cast<std::size_t>(d)].low) * per_unit_(d);
+  for (Index d = 0; d < dimensions(); ++d) unit(d) = unit_at(d, descriptor(d));
   return unit;
 }
 

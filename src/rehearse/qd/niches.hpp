@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "rehearse/core/evaluator.hpp"
@@ -60,7 +59,10 @@ class Niches {
   bool operator==(const Niches& other) const;
 
  private:
-  Index find_box(const double* descriptor) const;
+  double unit_at(Index d, double value) const {  // a descriptor's number in widths of its bounds
+    return (value - bounds_[static_cast<std::size_t>(d)].low) * per_unit_(d);
+  }
+  Index find_box(const double* unit) const;
 
   std::vector<Interval> bounds_;
   std::vector<Index> bins_;

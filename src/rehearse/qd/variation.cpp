@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace rehearse::qd {
+namespace {
+
+constexpr double kFinestLattice = 1e-9;
+
+}  // namespace
 
 void Variation::fields(FieldVisitor& v) {
   v.choice("kind", kind,
@@ -14,8 +19,8 @@ void Variation::fields(FieldVisitor& v) {
   v.number("line_sigma", line_sigma,
            "standard deviation of the mutation along the line to another elite, in distances to it", at_least(0));
   v.number("reset_rate", reset_rate, "probability of a parameter to be drawn anew", between(0, 1));
-  v.number("lattice", lattice, "step of the lattice on which these are drawn, in widths of the bounds; 0: none",
-           between(0, 1));
+  v.number("lattice", lattice,
+           "step of the lattice on which these are drawn, in widths of the bounds; below 1e-9: none", between(0, 1));
 }
 
 Varier::Varier(Variation variation, std::vector<Interval> box, Index parameters, StreamKey key)
@@ -89,7 +94,7 @@ void Varier::reset(const Archive& archive, std::uint64_t first, MatrixView X) co
 
 double Varier::lattice_point(Index parameter, Rng& rng) const {
   const Interval& box = box_[static_cast<std::size_t>(parameter)];
-  if (variation_.lattice == 0) return rng.uniform(box.low, box.high);
+  if (variation_.lattice < kFinestLattice) return rng.uniform(box.low, box.high);
   const auto steps = static_cast<Index>(std::floor(1 / variation_.lattice + 1e-9));
   const double at = std::min(1.0, static_cast<double>(rng.below(steps + 1)) * variation_.lattice);
   return box.low + at * (box.high - box.low);

@@ -31,7 +31,7 @@ class Varier {
   /// box: of each parameter, or empty: none. reset needs one.
   Varier(Variation variation, std::vector<Interval> box, Index parameters, StreamKey key);
 
-  /// Solutions number first, first + 1, … into X (n × P): in the box and uniform. It needs a box.
+  /// Solutions number first, first + 1, … into X (n × P): uniform in the box, or on its lattice. It needs a box.
   void draw(std::uint64_t first, MatrixView X) const;
   /// Draws solutions from N(start, σ_iso²), in the box.
   void draw_about(const Vector& start, std::uint64_t first, MatrixView X) const;

@@ -43,7 +43,7 @@ void Episodes::copy(Index row, Episode& episode) const {
   episode.rewards = rewards.row(row).head(T).transpose();
   episode.charged = static_cast<double>(rewards.cols() - T) * reward_floor;
   episode.episode_reward = episode_rewards.size() > 0 ? episode_rewards(row) : 0;
-  episode.ended = ended[i];
+  episode.ended = ended[i] || failed[i];  // as `execute` has it
 }
 
 double episode_reward_of(const Task& task, const Episode& episode) {

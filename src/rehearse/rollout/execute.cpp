@@ -14,7 +14,7 @@
 namespace rehearse::rollout {
 namespace {
 
-/// within what a robot may answer
+/// True if a state is within what a robot may answer.
 bool is_plausible(const Vector& state) { return (state.array().abs() <= kLargestGiven).all(); }
 
 /// what: "state", or "true state".

@@ -37,7 +37,7 @@ std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode
       predicted.conservativeResize(rows, Eigen::NoChange);
       mean.resize(rows, predicted.cols());
       model.predict_mean(known_states(predicted, episode.states), episode.actions.middleRows(step, rows), mean);
-      predicted += mean;  // what has failed stays NaN
+      predicted += mean;  // a state that has failed stays NaN
     }
     arrived.push_back(predicted);
   }

@@ -18,8 +18,8 @@ struct FixedPolicy {
 
 /// Continues a model's mean prediction from every state of an episode under the actions that were taken. horizons:
 /// ascending, in 1..T. Element i of the result has T − horizons[i] + 1 rows: row t is the state (dx) predicted for step
-/// t + horizons[i] from the one measured at step t; NaN once a prediction on the way was not finite. The evaluator is
-/// asked before each step whether to stop.
+/// t + horizons[i] from the one measured at step t; NaN from the first prediction of a state on that was not finite.
+/// The evaluator is asked before each step whether to stop.
 std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode& episode,
                              const std::vector<Index>& horizons, const Evaluator& evaluator = serial_evaluator());
 

@@ -13,7 +13,8 @@ Index rows_at_once(const dynamics::DynamicsModel& model, const Task& task) {
 }
 
 Index rows_of_chunk(Index batch, Index usual, Index rows_at_once) {
-  return std::min(batch, std::max(usual, std::min(rows_at_once, std::max((batch + 1) / 2, rows_at_once / 4))));
+  return std::min(std::max<Index>(1, batch),
+                  std::max(usual, std::min(rows_at_once, std::max((batch + 1) / 2, rows_at_once / 4))));
 }
 
 Index groups_of_chunk(Index groups, Index rows, Index usual, Index rows_at_once) {

@@ -6,6 +6,7 @@
 
 #include "rehearse/identification/phi_posterior.hpp"
 #include "rehearse/rollout/particles.hpp"
+#include "rehearse/statistics/columns.hpp"
 #include "rehearse/statistics/quantiles.hpp"
 
 namespace rehearse::study {
@@ -16,16 +17,12 @@ constexpr double kLeast = 1e-9;  // deviation: that of a model that is certain i
 
 /// Mean and deviation of particles in each column, in the rows of a start; NaN if fewer than half are left.
 void summarise(const Matrix& particles, Index start, Forecasts::At& at) {
+  const Vector means = statistics::column_means(particles), deviations = statistics::column_deviations(particles);
   for (Index s = 0; s < particles.cols(); ++s) {
-    double n = 0, sum = 0, squares = 0;
-    for (const double x : particles.col(s))
-      if (std::isfinite(x)) n += 1, sum += x;
-    const double mean = sum / n;
-    for (const double x : particles.col(s))
-      if (std::isfinite(x)) squares += (x - mean) * (x - mean);
-    const bool enough = 2 * n >= static_cast<double>(particles.rows());
-    at.predicted(start, s) = enough ? mean : kNone;
-    at.deviation(start, s) = enough ? std::sqrt(squares / std::max(n - 1, 1.0)) : kNone;
+    const Index finite = particles.col(s).array().isFinite().count();
+    const bool enough = 2 * finite >= particles.rows();
+    at.predicted(start, s) = enough ? means(s) : kNone;
+    at.deviation(start, s) = !enough ? kNone : finite > 1 ? deviations(s) : 0;
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
-#include "rehearse/statistics/root_mean_squares.hpp"
+#include "rehearse/statistics/columns.hpp"
 
 namespace rehearse::study {
 namespace {
@@ -96,9 +96,9 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
 bool moves(const LogModel& model) {
   constexpr double kRounding = 1e-9;  // of the mean of equal numbers, beside them
   const Matrix& states = model.data.states;
-  const Vector spread = statistics::root_mean_squares(states.rowwise() - states.colwise().mean());
-  const Vector least =
-      statistics::root_mean_squares(model.data.changes).cwiseMax(kRounding * statistics::root_mean_squares(states));
+  const Vector spread = statistics::column_root_mean_squares(states.rowwise() - states.colwise().mean());
+  const Vector least = statistics::column_root_mean_squares(model.data.changes)
+                           .cwiseMax(kRounding * statistics::column_root_mean_squares(states));
   return (least.array() < spread.array()).any();
 }
 

@@ -8,7 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
-#include "rehearse/statistics/root_mean_squares.hpp"
+#include "rehearse/statistics/columns.hpp"
 #include "rehearse/study/mean_ratio.hpp"
 #include "rehearse/study/odd_logs.hpp"
 
@@ -232,10 +232,11 @@ class Student {
     const auto left = [&](const dynamics::DynamicsModel& model) -> Vector {
       Matrix mean(data.states.rows(), data.states.cols());
       model.predict_mean(data.states, data.actions, mean);
-      return statistics::root_mean_squares(data.changes - mean);
+      return statistics::column_root_mean_squares(data.changes - mean);
     };
     const prior::Prior& prior = problem_.prior;
-    return {statistics::root_mean_squares(data.changes), left(dynamics::SimulatorModel(prior, prior.space.values())),
+    return {statistics::column_root_mean_squares(data.changes),
+            left(dynamics::SimulatorModel(prior, prior.space.values())),
             left(dynamics::SimulatorModel(prior, *study_.model.learned.state.phi)), left(*with_gps().learned.model)};
   }
 

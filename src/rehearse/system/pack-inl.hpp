@@ -11,8 +11,7 @@
 // Highway's order matters: the functions come after the target.
 #include <hwy/contrib/math/math-inl.h>
 
-#include "rehearse/core/exponential-inl.hpp"
-#include "rehearse/core/sine-inl.hpp"
+#include "rehearse/core/elementary-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rehearse::system {
@@ -48,13 +47,11 @@ class Pack {
   friend HWY_INLINE Pack sin(Pack a) { return rehearse::HWY_NAMESPACE::sine(D(), a.lanes_); }
   friend HWY_INLINE Pack cos(Pack a) { return rehearse::HWY_NAMESPACE::cosine(D(), a.lanes_); }
   friend HWY_INLINE Pack exp(Pack a) { return rehearse::HWY_NAMESPACE::exponential(D(), a.lanes_); }
-  friend HWY_INLINE Pack tanh(Pack a) { return a.unless_nan(hn::Tanh(D(), a.lanes_)); }
+  friend HWY_INLINE Pack tanh(Pack a) { return rehearse::HWY_NAMESPACE::hyperbolic_tangent(D(), a.lanes_); }
   friend HWY_INLINE Pack sqrt(Pack a) { return hn::Sqrt(a.lanes_); }
   friend HWY_INLINE Pack abs(Pack a) { return hn::Abs(a.lanes_); }
 
  private:
-  HWY_INLINE Pack unless_nan(V result) const { return hn::IfThenElse(hn::IsNaN(lanes_), lanes_, result); }
-
   V lanes_;
 };
 

@@ -1,7 +1,6 @@
 #include "rehearse/experiment/forecast.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -58,19 +57,6 @@ TEST(Forecast, AnglesDifferByLessThanATurn) {
   Episode episode = steady_episode(1);
   episode.states(1, 0) += 2 * std::numbers::pi;
   EXPECT_NEAR(forecast_errors(fake::LineModel(1), task, episode)[0].rms(0), 0, 1e-12);
-}
-
-TEST(Forecast, StatisticsOfFiniteValues) {
-  Matrix states(5, 2);
-  states.col(0) << 4, std::nan(""), 1, 2, 3;
-  states.col(1).setConstant(std::nan(""));
-  EXPECT_EQ(quantiles(states, 0.5)(0), 2.5);
-  EXPECT_EQ(quantiles(states, 0)(0), 1);
-  EXPECT_EQ(quantiles(states, 1)(0), 4);
-  EXPECT_EQ(mean_of_finite(states)(0), 2.5);
-  EXPECT_NEAR(deviations_of_finite(states)(0), std::sqrt(5.0 / 3), 1e-15);
-  EXPECT_TRUE(std::isnan(quantiles(states, 0.5)(1)) && std::isnan(mean_of_finite(states)(1)));
-  EXPECT_TRUE(std::isnan(deviations_of_finite(states)(1)) && std::isnan(deviations_of_finite(Matrix::Ones(1, 1))(0)));
 }
 
 }  // namespace

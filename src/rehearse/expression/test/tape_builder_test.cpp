@@ -1,7 +1,5 @@
 #include "rehearse/expression/tape_builder.hpp"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
@@ -62,36 +60,6 @@ TEST(TapeBuilder, EveryValueIsComputedAtThePaceOfItsInputs) {
   for (const auto& code : tape.code)
     EXPECT_EQ(code.size(), 1u) << "and no product is fused into a sum of a faster pace";
   EXPECT_EQ(run_tape(tape, Matrix{{2, 3, 5}}), (Matrix{{35}}));
-}
-
-TEST(TapeBuilder, SmallPowersAreProducts) {
-  for (int n = -4; n <= 5; ++n) {
-    TapeBuilder builder;
-    const Node x = builder.input(Pace::always);
-    const Tape tape = builder.tape({builder.operation(Op::power, x, builder.constant(n))});
-    EXPECT_NEAR(run_tape(tape, Matrix{{-1.5}})(0, 0), std::pow(-1.5, n), 1e-14) << n;
-    for (const Instruction& instruction : tape.code[2]) EXPECT_NE(instruction.op, Op::power);
-  }
-}
-
-TEST(TapeBuilder, SinesOfSumsFollowFromThoseThatAreKnown) {
-  TapeBuilder builder;
-  const Node a = builder.input(Pace::always), b = builder.input(Pace::always);
-  const Node sine_a = builder.input(Pace::always), cosine_a = builder.input(Pace::always),
-             sine_b = builder.input(Pace::always), cosine_b = builder.input(Pace::always);
-  builder.known_trigonometry(a, sine_a, cosine_a);
-  builder.known_trigonometry(b, sine_b, cosine_b);
-  EXPECT_EQ(builder.operation(Op::sine, a), sine_a);
-  const Node difference = builder.operation(Op::subtract, a, b), both = builder.operation(Op::add, difference, a);
-  const Tape tape = builder.tape({builder.operation(Op::sine, both), builder.operation(Op::cosine, both)});
-  for (const Instruction& instruction : tape.code[2]) {
-    EXPECT_NE(instruction.op, Op::sine);
-    EXPECT_NE(instruction.op, Op::cosine);
-  }
-  const double x = 0.7, y = -1.3;
-  const Matrix at{{x, y, std::sin(x), std::cos(x), std::sin(y), std::cos(y)}};
-  EXPECT_NEAR(run_tape(tape, at)(0, 0), std::sin(2 * x - y), 1e-15);
-  EXPECT_NEAR(run_tape(tape, at)(0, 1), std::cos(2 * x - y), 1e-15);
 }
 
 // 1 / ((x + y) y): two instructions hand their results over, and no slot is taken but that of the output.

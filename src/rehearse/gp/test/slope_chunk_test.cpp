@@ -61,6 +61,20 @@ TEST(SlopeChunk, KnowsTrends) {
     expect_slopes(Posterior(Inputs(X), y, {theta}, tolerance), 2 * naive::normals(150, 3, 8));
 }
 
+TEST(SlopeChunk, KnowsTheTrendOfAFunctionWithoutPoints) {
+  const Matrix X = naive::normals(60, 1, 17);
+  const Hyperparameters theta = naive::with_trend(naive::hyperparameters(1, 1, 1e-6, 1), 1e-5);
+  const Posterior none(Inputs(X), naive::normals(60, 1, 18), {theta}, 0.01);
+  EXPECT_EQ(none.variance_points(0), 0);
+  const double x = 1e6, h = 100;
+  Matrix mean(2, 1), variance(2, 1), mean_by(2, 1), variance_by(2, 1);
+  none.predict(Matrix{{x - h}, {x + h}}, mean, variance);
+  const double difference = (variance(1) - variance(0)) / (2 * h);
+  none.linearise(Matrix{{x}, {x}}, mean, variance, mean_by, variance_by);
+  EXPECT_GT(difference, 1e-6);
+  EXPECT_NEAR(variance_by(0), difference, 1e-6 * difference);
+}
+
 TEST(SlopeChunk, KnowsOddFunctions) {
   const Matrix X = naive::normals(220, 3, 17).array() + 0.5;
   const Vector signs{{-1, 1, -1}};

@@ -85,5 +85,16 @@ TEST(LeastSquares, RowsThatFailAreCharged) {
   EXPECT_EQ(found(swing::data(10, 1), always).phi, always.space.values());
 }
 
+TEST(LeastSquares, APhiAtWhichAllRowsFailIsNoneHoweverWrongThePriorIs) {
+  const prior::Prior biased = swing::prior({swing::length(), swing::friction()},
+                                           [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+                                             swing::ode(x, u, phi, dxdt);
+                                             dxdt(0) += phi(0) > 1.2 ? std::numeric_limits<double>::quiet_NaN() : 1000;
+                                           });
+  for (const Index rows : {1, 25})
+    for (const LeastSquares& options : {LeastSquares{}, kPublished})
+      EXPECT_LE(found(swing::data(rows, 1), biased, options).phi(0), 1.2) << rows;
+}
+
 }  // namespace
 }  // namespace rehearse::identification

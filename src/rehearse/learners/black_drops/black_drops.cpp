@@ -234,26 +234,27 @@ bool tunes_prior(const Options& options) {
 }
 
 std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy& policy) {
-  if (needs_derivatives(options.search.method) && !dynamic_cast<const policy::Differentiable*>(&policy))
-    return {"search.method = gradient or polish, but the policy '" + policy.name() +
-            "' does not know its derivatives: choose another policy, or search.method = race"};
-  if (needs_derivatives(options.search.method) && task.actuators().changes_commands())
-    return {
-        "search.method = gradient or polish, but commands are filtered or limited in their rate, whose derivatives "
-        "are not known: choose search.method = race"};
-  if (auto violations = hand_over_violations(options.search, task); !violations.empty()) return violations;
-  if (task.episode_reward && needs_derivatives(options.search.method))
-    return {
-        "search.method = gradient or polish, but the task has a reward of whole episodes ([reward] episode), whose "
-        "derivatives are not known: choose search.method = race"};
-  if (task.episode_reward && options.reward.learned)
-    return {
-        "reward.learned = true, but the task has a reward of whole episodes ([reward] episode), which is not learned: "
-        "leave out one of them"};
-  if (!options.reward.learned || prior_use(options) == PriorUse::none || task.initial_reward) return {};
-  return {
-      "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it one "
-      "(of those built in: initial_reward_width), or choose a learner without a prior"};
+  Violations violations;
+  if (needs_derivatives(options.search.method)) {
+    const auto require = [&](bool known, const std::string& of) {
+      violations.require(known, "search.method = gradient or polish, but derivatives of " + of +
+                                    " are not known: choose search.method = race");
+    };
+    require(dynamic_cast<const policy::Differentiable*>(&policy) != nullptr, "the policy '" + policy.name() + "'");
+    require(!task.actuators().changes_commands(), "commands that are filtered or limited in their rate");
+    require(!task.episode_reward, "a reward of whole episodes ([reward] episode)");
+  }
+  violations.add(hand_over_violations(options.search, task));
+  if (options.reward.learned) {
+    violations.require(!task.episode_reward,
+                       "reward.learned = true, but a reward of whole episodes ([reward] episode) is not learned: leave "
+                       "out one of them");
+    violations.require(
+        prior_use(options) == PriorUse::none || task.initial_reward,
+        "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it "
+        "one (of those built in: initial_reward_width), or choose a learner without a prior");
+  }
+  return violations.list();
 }
 
 Entry<Options> entry(const char* name, const char* summary, identification::Kind model) {

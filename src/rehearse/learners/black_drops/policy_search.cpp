@@ -58,6 +58,7 @@ std::vector<Vector> find(SimulatedReturn& objective, const std::vector<Vector>& 
                          const SearchProblem& problem, const SearchOptions& options, const StreamKey& key,
                          const optim::SearchListener& listener) {
   std::vector<Vector> found;
+  Index evaluations = 0;
   if (options.method == Method::restarts) {
     const Vector start = starts.empty() ? random_policy(problem.policy, options, key) : starts.front();
     auto result = optim::maximise(std::ref(objective), start, box, options.restarts, key, listener);
@@ -66,10 +67,11 @@ std::vector<Vector> find(SimulatedReturn& objective, const std::vector<Vector>& 
   if (races(problem, options)) {
     auto result = optim::race(std::ref(objective), {box, starts}, options.race, key, problem.evaluator, listener);
     for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
+    evaluations = result.evaluations;
   }
   if (!climbs(problem, options)) return found;
-  const auto count = [&](Index, double best) {
-    if (listener) listener(objective.rollouts(), best);
+  const auto count = [&, before = objective.rollouts()](Index, double best) {
+    if (listener) listener(evaluations + objective.rollouts() - before, best);
   };
   const std::vector<Vector>& from = found.empty() ? starts : found;
   auto climbed = search_by_gradient(objective, problem.policy, {box.front(), from}, options.gradient, key, count);
