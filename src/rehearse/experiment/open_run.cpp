@@ -203,7 +203,7 @@ void OpenRun::record(const Episode& episode, const std::string& file_checksum, c
 
 void OpenRun::conclude(const Episode& episode) {
   const std::string file = RunFolder::trajectory_of(history_.done() + 1).string();
-  record(episode, "", recording::notes_on_driven(parts_.task(), episode.states, file));
+  record(episode, "", recording::notes_on_driven(parts_.task(), episode, file));
   publish();
   announce();
   evaluate_last();

@@ -50,7 +50,7 @@ std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& p
 }  // namespace
 
 std::string why_rollouts_failed(const learners::Proposal& proposal) {
-  return proposal.failed_row.empty() ? "the model's predictions were not finite"
+  return proposal.failed_row.empty() ? "the model's predictions, or their rewards, were not finite"
                                      : "the prior fails " + proposal.failed_row;
 }
 

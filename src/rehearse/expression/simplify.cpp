@@ -1,4 +1,4 @@
-// What TapeBuilder computes in the place of an operation, where that is faster.
+// TapeBuilder: faster operations in the place of others.
 
 #include <cmath>
 #include <cstdlib>
@@ -47,7 +47,7 @@ Node TapeBuilder::quotient(Node a, Node b) {
   return product;
 }
 
-/// What jumps at a number is given true divisions: a product with 1/b is rounded twice, so that 49/49 is below 1.
+/// Rounding and comparisons are given true divisions: a product with 1/b is rounded twice, so that 49/49 is below 1.
 Node TapeBuilder::of_divisions(Op op, Node a, Node b) {
   const auto divided = [this](Node node) {
     const auto found = quotients_.find(node);

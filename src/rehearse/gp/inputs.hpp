@@ -28,9 +28,8 @@ class Inputs {
     return center_.binaryExpr(spread_, [](double c, double s) { return std::hypot(c, s); });
   }
 
-  Matrix values() const {
-    return (unit_ * half_range_.asDiagonal()).rowwise() + center_.transpose();
-  }  // n × D: X but for rounding
+  /// X (n × D), but for rounding.
+  Matrix values() const { return (unit_ * half_range_.asDiagonal()).rowwise() + center_.transpose(); }
 
   const Matrix& unit() const { return unit_; }              // n × D, (X − center) / half_range, in [−1, 1]
   const Vector& center() const { return center_; }          // D

@@ -71,12 +71,17 @@ class Warnings {
     std::vector<std::string> all;
     for (const std::vector<Index>& group : groups_of(unsure, posterior_.covariance)) all.push_back(sentence(group));
     for (Index i = 0; i < posterior_.mean.size(); ++i)
-      if (const auto end = end_at(of(i), posterior_.mean(i)))
+      if (const auto end = end_at(of(i), posterior_.mean(i)); end && reaches(i, *end))
         all.push_back(fmt::format("{} is at its bound, {:.3g}: a better value may lie beyond", of(i).name, *end));
     return all;
   }
 
  private:
+  /// True unless the interval says that the value is beside the end of the box.
+  bool reaches(Index i, double end) const {
+    const Interval& interval = intervals_[static_cast<std::size_t>(i)];
+    return !(interval.low > end || interval.high < end);
+  }
   const Parameter& of(Index i) const { return posterior_.parameters[static_cast<std::size_t>(i)]; }
 
   /// True if a parameter's interval is wide. Half of it is at least 1.96 deviations, even where the box cuts it.

@@ -8,15 +8,16 @@
 namespace rehearse::recording {
 namespace {
 
-/// The robot's own states as the columns of the episode's file, without what actuators remember of commands, which
-/// may jump.
-std::vector<Channel> channels_of(const Task& task, const Matrix& states) {
+/// The first `count` variables as the columns of the episode's file.
+template <class Variable>
+std::vector<Channel> channels_of(const std::vector<Variable>& variables, Index count, const Matrix& values,
+                                 double dt_s) {
   std::vector<Channel> channels;
-  for (Index s = 0; s < task.actuators().own_states(); ++s) {
-    const StateVariable& state = task.states[static_cast<std::size_t>(s)];
-    Channel channel{state.name, state.unit, {}};
-    for (Index k = 0; k < states.rows(); ++k)
-      channel.samples.push_back({static_cast<double>(k) * task.dt_s, states(k, s), k + 2});
+  for (Index i = 0; i < count; ++i) {
+    const Variable& variable = variables[static_cast<std::size_t>(i)];
+    Channel channel{variable.name, variable.unit, {}};
+    for (Index k = 0; k < values.rows(); ++k)
+      channel.samples.push_back({static_cast<double>(k) * dt_s, values(k, i), k + 2});
     channels.push_back(std::move(channel));
   }
   return channels;
@@ -24,11 +25,15 @@ std::vector<Channel> channels_of(const Task& task, const Matrix& states) {
 
 }  // namespace
 
-std::vector<std::string> notes_on_driven(const Task& task, const Matrix& states, const std::string& file) {
-  const std::vector<Channel> channels = channels_of(task, states);
+std::vector<std::string> notes_on_driven(const Task& task, const Episode& episode, const std::string& file) {
+  const Matrix& states = episode.states;
+  // Without what actuators remember of commands, which may jump.
+  const std::vector<Channel> channels =
+      channels_of(task.states, task.actuators().own_states(), states, task.dt_s);
+  const std::vector<Channel> pushes = channels_of(task.actions, task.action_size(), episode.actions, task.dt_s);
   const std::vector<const Channel*> rates = rates_of(channels, task);
   Problems jumps(file);
-  for (std::size_t s = 0; s < channels.size(); ++s) check_jumps(channels[s], rates[s], jumps);
+  for (std::size_t s = 0; s < channels.size(); ++s) check_jumps(channels[s], rates[s], pushes, jumps);
   std::vector<std::string> notes = jumps.lines();
   const Index steps = states.rows() - 1;
   for (std::string& note : notes_on_rates(task, states.topRows(steps), states.bottomRows(steps)))

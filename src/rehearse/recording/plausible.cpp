@@ -145,7 +145,20 @@ std::vector<const Channel*> rates_of(const std::vector<Channel>& states, const T
   return rates;
 }
 
-void check_jumps(const Channel& state, const Channel* rate, Problems& problems) {
+/// True if the action from sample i on, or the one before, stands out as a change does that is so many `times` as large
+/// as those around it, within a factor of two: a push.
+bool is_push(const Channel& action, const Channel& state, std::size_t i, double times) {
+  if (action.samples.empty()) return false;
+  std::vector<double> sizes;
+  for (const Sample& sample : state.samples) sizes.push_back(held(action, sample.time_s));
+  const double median = statistics::median(sizes);
+  for (double& size : sizes) size = std::abs(size - median);
+  for (std::size_t at = i > 0 ? i - 1 : 0; at <= i; ++at)
+    if (sizes[at] > 0.5 * times * usual_around(sizes, static_cast<std::ptrdiff_t>(at))) return true;
+  return false;
+}
+
+void check_jumps(const Channel& state, const Channel* rate, const std::vector<Channel>& actions, Problems& problems) {
   const auto [beyond, allowed] = changes_of(state, rate);
   if (beyond.size() < 8) return;
   const double usual = usual_change(beyond);
@@ -153,6 +166,8 @@ void check_jumps(const Channel& state, const Channel* rate, Problems& problems) 
     const double around = usual_around(beyond, static_cast<std::ptrdiff_t>(i));
     const double bound = std::max({allowed[i], kOutlier * usual, kOutlier * around});
     if (beyond[i] <= bound) continue;
+    const double times = beyond[i] / std::max(usual, around);
+    if (std::ranges::any_of(actions, [&](const Channel& action) { return is_push(action, state, i, times); })) continue;
     const Sample &before = state.samples[i], &after = state.samples[i + 1];
     problems.add(
         after.row, "jump of " + state.name,

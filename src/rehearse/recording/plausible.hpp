@@ -23,8 +23,9 @@ void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::v
 
 /// A problem for every jump that no robot makes: a change between neighbouring samples that is ten times as large as
 /// those around it and nine of ten of all (of a state at rest: as the smallest), and larger than the spread of the
-/// state, or, of a state with a rate, twice as large as the rate ever allows. rate: null, or the channel of the rate.
-void check_jumps(const Channel& state, const Channel* rate, Problems& problems);
+/// state, or, of a state with a rate, twice as large as the rate ever allows. One that an action explains, which stands
+/// out as much there, is none. rate: null, or the channel of the rate.
+void check_jumps(const Channel& state, const Channel* rate, const std::vector<Channel>& actions, Problems& problems);
 
 /// The channel of each state's rate; null: it has none.
 std::vector<const Channel*> rates_of(const std::vector<Channel>& states, const Task& task);

@@ -77,7 +77,7 @@ void check_channels(Channels& channels, const Task& task, Problems& problems, st
       move_beside(channels.truths[s], channels.states[s].samples.front().value);
   const std::vector<const Channel*> rates = rates_of(channels.states, task);
   for (std::size_t s = 0; s < rates.size(); ++s) {
-    check_jumps(channels.states[s], rates[s], problems);
+    check_jumps(channels.states[s], rates[s], channels.actions, problems);
     if (rates[s]) compare_with_rate(channels.states[s], *rates[s], task.dt_s, notes);
     if (task.states[s].kind == StateKind::angle) look_for_turns(channels.states[s], notes);
   }

@@ -51,6 +51,9 @@ TEST(IdentifiabilityWarnings, IntervalsEndWithTheBoxAndWarningsSayWhereThatIs) {
   EXPECT_EQ(intervals[1].high, 1);
   EXPECT_EQ(intervals[2].low, 0);
   EXPECT_EQ(identifiability_warnings(posterior), Sentences{"b is at its bound, 1: a better value may lie beyond"});
+  posterior.mean(1) = 0.9995;  // nearly the bound, but surely less
+  posterior.covariance *= 1e-8;
+  EXPECT_EQ(identifiability_warnings(posterior), Sentences{});
 }
 
 TEST(IdentifiabilityWarnings, AParameterThatMovesNothingCouldBeAnything) {

@@ -69,6 +69,7 @@ class GpIlqg final : public TrialLearner {
     }
     proposal.notes.emplace_back("no plan is finite in the model: the plan stays");
     proposal.theta = plan_ ? *plan_ : Vector::Zero(proposal.policy->parameters());
+    if (!plan_) proposal.rollouts = proposal.failed_rollouts = options_.search.starts;  // nothing that may move a robot
   }
 
   void learn(const Proposal& tried, const Episode& episode) override {

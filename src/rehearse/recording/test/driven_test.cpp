@@ -21,9 +21,18 @@ Matrix swings(double amplitude) {
   return states;
 }
 
+Episode measured(const Task& task, const Matrix& states) {
+  return {.states = states, .true_states = states, .actions = Matrix::Zero(states.rows() - 1, task.action_size())};
+}
+
+std::vector<std::string> notes_on(const Matrix& states, const std::string& file = "trial.csv") {
+  const Task task = swinging(StateKind::angle);
+  return notes_on_driven(task, measured(task, states), file);
+}
+
 TEST(Driven, MotionOfARobotIsNotNoted) {
   for (const double amplitude : {0.0, 0.1, 4.0})
-    EXPECT_EQ(notes_on_driven(swinging(StateKind::angle), swings(amplitude), "trial.csv"), std::vector<std::string>{})
+    EXPECT_EQ(notes_on(swings(amplitude)), std::vector<std::string>{})
         << amplitude;
 }
 
@@ -32,7 +41,7 @@ TEST(Driven, AnAngleThatJumpsByATurnIsNoted) {
   Matrix states(401, 2);
   for (Index k = 0; k <= 400; ++k)
     states.row(k) << std::remainder(3 * kStep_s * static_cast<double>(k), 2 * std::numbers::pi), 3;
-  const auto notes = notes_on_driven(swinging(StateKind::angle), states, "trial.csv");
+  const auto notes = notes_on(states);
   ASSERT_FALSE(notes.empty());
   EXPECT_TRUE(notes[0].starts_with("trial.csv: row 23: q jumps from 3 to ")) << notes[0];
 }
@@ -40,9 +49,21 @@ TEST(Driven, AnAngleThatJumpsByATurnIsNoted) {
 TEST(Driven, AnAnswerThatIsWrongOnceIsNoted) {
   Matrix states = swings(0.1);
   states(15, 1) = 30;
-  const auto notes = notes_on_driven(swinging(StateKind::angle), states, "trial.csv");
+  const auto notes = notes_on(states);
   ASSERT_FALSE(notes.empty());
   EXPECT_TRUE(notes[0].starts_with("trial.csv: row 17: dq jumps from ")) << notes[0];
+}
+
+TEST(Driven, APushIsNoJump) {
+  Task task = swinging(StateKind::angle);
+  task.actions = {{.name = "u", .bounds = {-3, 3}}};
+  Matrix states = Matrix::Zero(41, 2);
+  for (Index k = 11; k <= 40; ++k) states.row(k) << 0.05 * static_cast<double>(k - 10), 0.5;
+  Episode pushed = measured(task, states);
+  EXPECT_FALSE(notes_on_driven(task, pushed, "trial.csv").empty());
+  pushed.actions(10, 0) = 3;
+  for (const std::string& note : notes_on_driven(task, pushed, "trial.csv"))
+    EXPECT_EQ(note.find("jumps"), std::string::npos) << note;
 }
 
 TEST(Driven, CommandsThatAnActuatorRemembersMayJump) {
@@ -53,13 +74,13 @@ TEST(Driven, CommandsThatAnActuatorRemembersMayJump) {
   Matrix states(41, task.state_size());
   states << swings(0.1), Matrix::Constant(41, actuators.memory(), 2.5);
   states.row(0).tail(actuators.memory()).setZero();
-  EXPECT_EQ(notes_on_driven(task, states, "trial.csv"), std::vector<std::string>{});
+  EXPECT_EQ(notes_on_driven(task, measured(task, states), "trial.csv"), std::vector<std::string>{});
 }
 
 TEST(Driven, ASensorThatIsDeadIsNoted) {
   Matrix states = swings(0.1);
   states.col(0).setZero();
-  EXPECT_EQ(notes_on_driven(swinging(StateKind::angle), states, ""),
+  EXPECT_EQ(notes_on(states, ""),
             std::vector<std::string>{"q is the same in all rows, while dq says that it changes"});
 }
 

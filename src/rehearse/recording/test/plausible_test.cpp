@@ -62,9 +62,9 @@ TEST(Bounds, RoundingIsClippedAndMoreIsAProblem) {
 }
 
 /// True if there is a jump, judged without a rate.
-bool jumps(const Channel& channel) {
+bool jumps(const Channel& channel, const std::vector<Channel>& actions = {}) {
   Problems problems("f");
-  check_jumps(channel, nullptr, problems);
+  check_jumps(channel, nullptr, actions, problems);
   return !problems.empty();
 }
 
@@ -88,6 +88,21 @@ TEST(Jumps, AStateAtRestMayFlickerByTheResolutionOfItsSensor) {
   EXPECT_TRUE(jumps(speed));
 }
 
+TEST(Jumps, APushIsNone) {
+  const Channel coasting = channel_of("v", 0.1, 30, [](double t) { return t > 1.45 ? std::exp(1.5 - t) : 0; });
+  const auto push = [](double from, double to) {
+    return channel_of("u", 0.1, 29, [=](double t) { return t > from && t < to ? 5 : 0.01; });
+  };
+  EXPECT_TRUE(jumps(coasting));
+  EXPECT_TRUE(jumps(coasting, {push(0.45, 0.55)})) << "at another time";
+  EXPECT_TRUE(jumps(coasting, {channel_of("u", 0.1, 29, [](double t) { return std::sin(9 * t); })}));
+  EXPECT_FALSE(jumps(coasting, {push(1.35, 1.45)}));
+  EXPECT_FALSE(jumps(coasting, {push(1.25, 1.35)})) << "a step late";
+  Channel wrong = coasting;
+  wrong.samples[25].value = 9;
+  EXPECT_TRUE(jumps(wrong, {push(1.35, 1.45)}));
+}
+
 TEST(Jumps, SamplesThatAreWrongAreFound) {
   const auto swing = [](double t) { return std::sin(5 * t); };
   const Channel rate = channel_of("dq", 0.05, 60, [](double t) { return 5 * std::cos(5 * t); });
@@ -96,13 +111,13 @@ TEST(Jumps, SamplesThatAreWrongAreFound) {
     wrong.samples[static_cast<std::size_t>(at)].value = to;
     EXPECT_TRUE(jumps(wrong)) << to;
     Problems problems("f");
-    check_jumps(wrong, &rate, problems);
+    check_jumps(wrong, &rate, {}, problems);
     EXPECT_FALSE(problems.empty()) << to;
   }
   Channel shifted = channel_of("q", 0.05, 60, swing);  // an encoder that loses its zero
   for (std::size_t i = 30; i < 60; ++i) shifted.samples[i].value += 2;
   Problems problems("f");
-  check_jumps(shifted, &rate, problems);
+  check_jumps(shifted, &rate, {}, problems);
   EXPECT_FALSE(problems.empty());
 }
 
@@ -111,7 +126,7 @@ TEST(Jumps, OfAStateWithoutAUnitAreSaidWithoutOne) {
   level.unit = "";
   level.samples[10].value = 500;
   Problems problems("f");
-  check_jumps(level, nullptr, problems);
+  check_jumps(level, nullptr, {}, problems);
   const std::string said = message_of<InvalidInput>([&] { problems.throw_if_any(); });
   EXPECT_NE(said.find("level jumps from 9 to 500 in 1 s"), std::string::npos) << said;
 }
