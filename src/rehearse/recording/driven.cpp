@@ -28,8 +28,7 @@ std::vector<Channel> channels_of(const std::vector<Variable>& variables, Index c
 std::vector<std::string> notes_on_driven(const Task& task, const Episode& episode, const std::string& file) {
   const Matrix& states = episode.states;
   // Without what actuators remember of commands, which may jump.
-  const std::vector<Channel> channels =
-      channels_of(task.states, task.actuators().own_states(), states, task.dt_s);
+  const std::vector<Channel> channels = channels_of(task.states, task.actuators().own_states(), states, task.dt_s);
   const std::vector<Channel> pushes = channels_of(task.actions, task.action_size(), episode.actions, task.dt_s);
   const std::vector<const Channel*> rates = rates_of(channels, task);
   Problems jumps(file);

@@ -53,10 +53,10 @@ TEST(TrialRecord, NotesSayWhereThePriorFailed) {
   proposal.rollouts = 100, proposal.failed_rollouts = 10;
   EXPECT_EQ(record_before(1, proposal, resolved).notes, std::vector<std::string>{});
   proposal.failed_rollouts = 51, proposal.left_out_rows = 19;
-  EXPECT_EQ(
-      record_before(2, proposal, resolved).notes,
-      (std::vector<std::string>{"19 training rows left out: a change, or the prior's prediction of it, was not finite",
-                                "51 of 100 rollouts failed: the model's predictions, or their rewards, were not finite"}));
+  EXPECT_EQ(record_before(2, proposal, resolved).notes,
+            (std::vector<std::string>{
+                "19 training rows left out: a change, or the prior's prediction of it, was not finite",
+                "51 of 100 rollouts failed: the model's predictions, or their rewards, were not finite"}));
   proposal.failed_row = "in x = 7 under u = 1: no licence";
   EXPECT_EQ(record_before(2, proposal, resolved).notes.back(),
             "51 of 100 rollouts failed: the prior fails in x = 7 under u = 1: no licence");

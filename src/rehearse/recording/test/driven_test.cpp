@@ -32,8 +32,7 @@ std::vector<std::string> notes_on(const Matrix& states, const std::string& file 
 
 TEST(Driven, MotionOfARobotIsNotNoted) {
   for (const double amplitude : {0.0, 0.1, 4.0})
-    EXPECT_EQ(notes_on(swings(amplitude)), std::vector<std::string>{})
-        << amplitude;
+    EXPECT_EQ(notes_on(swings(amplitude)), std::vector<std::string>{}) << amplitude;
 }
 
 // Plants count turns on (system/counted_turns.hpp); of one that does not, models would learn the jumps.
@@ -80,8 +79,7 @@ TEST(Driven, CommandsThatAnActuatorRemembersMayJump) {
 TEST(Driven, ASensorThatIsDeadIsNoted) {
   Matrix states = swings(0.1);
   states.col(0).setZero();
-  EXPECT_EQ(notes_on(states, ""),
-            std::vector<std::string>{"q is the same in all rows, while dq says that it changes"});
+  EXPECT_EQ(notes_on(states, ""), std::vector<std::string>{"q is the same in all rows, while dq says that it changes"});
 }
 
 }  // namespace
