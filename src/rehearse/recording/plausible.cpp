@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -96,6 +98,28 @@ double lateness_of(const Channel& state, const Channel& rate) {
   return lateness_s(numbers(state, &Sample::time_s), numbers(state, &Sample::value), numbers(rate, &Sample::value));
 }
 
+/// How far each action is from its median at the samples of a state.
+std::vector<std::vector<double>> deviations_of(const std::vector<Channel>& actions, const Channel& state) {
+  std::vector<std::vector<double>> all;
+  for (const Channel& action : actions) {
+    if (action.samples.empty()) continue;
+    std::vector<double> sizes;
+    for (const Sample& sample : state.samples) sizes.push_back(held(action, sample.time_s));
+    const double median = statistics::median(sizes);
+    for (double& size : sizes) size = std::abs(size - median);
+    all.push_back(std::move(sizes));
+  }
+  return all;
+}
+
+/// True if an action from sample i on, or the one before, stands out as a change does that is so many `times` as large
+/// as those around it, within a factor of two. sizes: its deviations.
+bool is_push(const std::vector<double>& sizes, std::size_t i, double times) {
+  for (std::size_t at = i > 0 ? i - 1 : 0; at <= i; ++at)
+    if (sizes[at] > 0.5 * times * usual_around(sizes, static_cast<std::ptrdiff_t>(at))) return true;
+  return false;
+}
+
 }  // namespace
 
 Index unwrap(Channel& angle, double start) {
@@ -145,29 +169,18 @@ std::vector<const Channel*> rates_of(const std::vector<Channel>& states, const T
   return rates;
 }
 
-/// True if the action from sample i on, or the one before, stands out as a change does that is so many `times` as large
-/// as those around it, within a factor of two: a push.
-bool is_push(const Channel& action, const Channel& state, std::size_t i, double times) {
-  if (action.samples.empty()) return false;
-  std::vector<double> sizes;
-  for (const Sample& sample : state.samples) sizes.push_back(held(action, sample.time_s));
-  const double median = statistics::median(sizes);
-  for (double& size : sizes) size = std::abs(size - median);
-  for (std::size_t at = i > 0 ? i - 1 : 0; at <= i; ++at)
-    if (sizes[at] > 0.5 * times * usual_around(sizes, static_cast<std::ptrdiff_t>(at))) return true;
-  return false;
-}
-
 void check_jumps(const Channel& state, const Channel* rate, const std::vector<Channel>& actions, Problems& problems) {
   const auto [beyond, allowed] = changes_of(state, rate);
   if (beyond.size() < 8) return;
   const double usual = usual_change(beyond);
+  std::optional<std::vector<std::vector<double>>> pushes;  // where there is a jump
   for (std::size_t i = 0; i < beyond.size(); ++i) {
     const double around = usual_around(beyond, static_cast<std::ptrdiff_t>(i));
     const double bound = std::max({allowed[i], kOutlier * usual, kOutlier * around});
     if (beyond[i] <= bound) continue;
     const double times = beyond[i] / std::max(usual, around);
-    if (std::ranges::any_of(actions, [&](const Channel& action) { return is_push(action, state, i, times); })) continue;
+    if (!pushes) pushes = deviations_of(actions, state);
+    if (std::ranges::any_of(*pushes, [&](const auto& sizes) { return is_push(sizes, i, times); })) continue;
     const Sample &before = state.samples[i], &after = state.samples[i + 1];
     problems.add(
         after.row, "jump of " + state.name,
