@@ -21,6 +21,13 @@ TEST(Columns, StatisticsAreThoseOfFiniteValues) {
   EXPECT_TRUE(std::isnan(column_deviations(columns)(1)) && std::isnan(column_root_mean_squares(columns)(1)));
 }
 
+TEST(Columns, RootMeanSquaresAreThoseOfFiniteNumbers) {
+  const Vector found = column_root_mean_squares(Matrix{{3, 1, NAN}, {-3, NAN, INFINITY}, {3, INFINITY, NAN}});
+  EXPECT_DOUBLE_EQ(found(0), 3);
+  EXPECT_DOUBLE_EQ(found(1), 1);
+  EXPECT_TRUE(std::isnan(found(2)));
+}
+
 TEST(Columns, OfOneValueThereIsNoDeviation) { EXPECT_TRUE(std::isnan(column_deviations(Matrix::Ones(1, 1))(0))); }
 
 TEST(Columns, TheMeanOfEqualValuesIsThatValue) {
