@@ -93,7 +93,8 @@ void print_summary(const Summary& summary, double task_s, double episode_s) {
 /// Prints the rate solved at the end of the episode by changed parameter; the median return if the task has no test of
 /// success.
 void print_robustness(const std::vector<experiment::Changed>& all) {
-  const bool can_say = all.front().summary.solved_at_end.has_value();
+  const bool can_say =
+      std::ranges::any_of(all, [](const auto& each) { return each.summary.solved_at_end.has_value(); });
   put("{} by the factor of one parameter at a time\n{:12}", can_say ? "solved at the end, in %," : "median return", "");
   for (const double factor : experiment::kFactors) put("{:>9g}", factor);
   for (auto each = all.begin(); each != all.end();) {
@@ -104,11 +105,17 @@ void print_robustness(const std::vector<experiment::Changed>& all) {
         put("{:>9}", "-");  // beyond the bounds of its option
         continue;
       }
-      put("{:>9.4g}", can_say ? 100 * each->summary.solved_at_end->value() : statistics::median(each->summary.returns));
+      if (each->failure.empty())
+        put("{:>9.4g}",
+            can_say ? 100 * each->summary.solved_at_end->value() : statistics::median(each->summary.returns));
+      else
+        put("{:>9}", "fails");
       ++each;
     }
   }
   put("\n");
+  for (const experiment::Changed& each : all)
+    if (!each.failure.empty()) put("  {} {:.4g}: {}\n", each.parameter, each.value, each.failure);
 }
 
 /// An older file of this name is kept under another one.

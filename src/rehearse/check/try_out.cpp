@@ -98,9 +98,12 @@ double rounded_down(double number) {
   return unit * std::floor(number / unit);
 }
 
-/// A line where most steps earn less than those that a fall leaves; empty: they do not.
-std::string why_falls_pay(const Task& task, const Vector& rewards) {
-  if ((!task.ended && task.limits.empty()) || rewards.size() == 0) return {};
+/// A line where most steps earn less than those that a fall, or a failure, leaves; empty: they do not.
+std::string why_falls_pay(const Task& task, const Driven& driven) {
+  const auto failed = [](const Episode& episode) { return !episode.failure.empty(); };
+  const bool may_end = task.ended || !task.limits.empty() || std::ranges::any_of(driven.episodes, failed);
+  const Vector& rewards = driven.steps.rewards;
+  if (!may_end || rewards.size() == 0) return {};
   double sum = 0, least = task.reward_floor;
   Index below = 0;
   for (const double reward : rewards)
@@ -178,7 +181,7 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
   count_ends(task, driven.episodes, tried);
   if (const std::string line = unknown_ends(task, tried); !line.empty()) tried.notes.push_back(line);
   append(tried.broken, hopeless_limits(task, driven.episodes));
-  if (const std::string line = why_falls_pay(task, steps.rewards); !line.empty()) tried.notes.push_back(line);
+  if (const std::string line = why_falls_pay(task, driven); !line.empty()) tried.notes.push_back(line);
   append(tried.notes, where_turns_count(task, seed));
   if (steps.size() == 0) return tried;
   tried.change = statistics::column_root_mean_squares(steps.changes);

@@ -108,16 +108,16 @@ std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, 
   std::vector<Outcome> outcomes(static_cast<std::size_t>(plan.episodes));
   const Index parts = (plan.episodes + kEpisodesOfAPlant - 1) / kEpisodesOfAPlant;
   const auto ask = [&] { evaluator.stop_if_asked(); };
-  evaluator.for_each(parts, [&](Index of) {
+  const auto run_part = [&](Index of) {
     Robot robot(resolved);
     const Index first = of * kEpisodesOfAPlant, end = std::min(first + kEpisodesOfAPlant, plan.episodes);
     for (Index i = first; i < end; ++i)
-      outcomes[static_cast<std::size_t>(i)] = named_failure(learned.trial, "plant of the evaluation", [&] {
-        const Rng rng(stream_of(plan, learned, i));
-        return outcome_of(robot.episode(learned, longer, rng, ask), scenario.task);
-      });
-    named_failure(learned.trial, "plant of the evaluation", [&] { robot.require_finished(); });
-  });
+      outcomes[static_cast<std::size_t>(i)] =
+          outcome_of(robot.episode(learned, longer, Rng(stream_of(plan, learned, i)), ask), scenario.task);
+    robot.require_finished();
+  };
+  evaluator.for_each(parts,
+                     [&](Index of) { named_failure(learned.trial, "plant of the evaluation", [&] { run_part(of); }); });
   return outcomes;
 }
 

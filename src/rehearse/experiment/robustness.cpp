@@ -54,6 +54,14 @@ std::optional<Resolved> within_bounds(const std::function<Resolved()>& make) try
   return std::nullopt;
 }
 
+/// The episodes of a changed robot, which may fail.
+void evaluate_changed(Changed& changed, const Resolved& robot, const Learned& learned, const EvaluationPlan& plan,
+                      const Evaluator& evaluator) try {
+  changed.summary = summary_of(evaluate(robot, learned, plan, evaluator));
+} catch (const RunFailed& error) {
+  changed.failure = error.what();
+}
+
 void add_rate(std::vector<std::string>& row, const std::optional<statistics::Rate>& rate) {
   using files::Csv;
   if (!rate) return row.resize(row.size() + 3);
@@ -82,7 +90,10 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
     }
   const Summary unchanged = summary_of(evaluate(run, learned, plan, evaluator));
   for (std::size_t i = 0; i < all.size(); ++i)
-    all[i].summary = robots[i] ? summary_of(evaluate(*robots[i], learned, plan, evaluator)) : unchanged;
+    if (robots[i])
+      evaluate_changed(all[i], *robots[i], learned, plan, evaluator);
+    else
+      all[i].summary = unchanged;
   return all;
 }
 
@@ -93,7 +104,8 @@ std::string robustness_csv(const std::vector<Changed>& all, const EvaluationAbou
                 {"parameter", "factor", "value", "episodes", "solved", "solved_low", "solved_high", "solved_at_end",
                  "solved_at_end_low", "solved_at_end_high", "ended", "return_25", "return_50", "return_75"});
   Csv csv(header);
-  for (const auto& [parameter, factor, value, summary] : all) {
+  for (const auto& [parameter, factor, value, summary, failure] : all) {
+    if (!failure.empty()) continue;
     std::vector<std::string> row = about_cells(about);
     row.insert(row.end(), {parameter, Csv::cell(factor), Csv::cell(value), Csv::cell(summary.ended.of)});
     add_rate(row, summary.solved);

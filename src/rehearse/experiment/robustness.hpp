@@ -14,6 +14,7 @@ struct Changed {
   double factor = 1;      // times the run's value
   double value = 0;
   Summary summary;
+  std::string failure = {};  // why this robot has no summary: it fails; empty: it does not
 };
 
 /// Factors of a parameter: ± 25 %.
@@ -22,12 +23,13 @@ inline const std::vector<double> kFactors = {0.75, 0.875, 1, 1.125, 1.25};
 /// Evaluates the policy with one parameter of the plant changed at a time, each of the options plant.NAME (where the
 /// prior plays the robot, of its parameters that are no choices) that is not 0, by every factor, always with the same
 /// random numbers. Values beyond the bounds of their option are left out. make: the run with one more option
-/// (`read_run`). Throws InvalidInput if the scenario has no such option, and what `evaluate` throws.
+/// (`read_run`). Throws InvalidInput if the scenario has no such option, and what `evaluate` throws where the robot
+/// fails as it is.
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator);
 
-/// robustness.csv: a row a parameter and factor.
+/// robustness.csv: a row a parameter and factor, but for robots that fail.
 std::string robustness_csv(const std::vector<Changed>& all, const EvaluationAbout& about);
 
 }  // namespace rehearse::experiment

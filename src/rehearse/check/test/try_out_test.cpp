@@ -144,6 +144,9 @@ TEST(TryOut, SaysWhereFallingPays) {
   ASSERT_EQ(nothing.size(), 1U);
   EXPECT_TRUE(nothing.front().ends_with("floor = 0 would be safe")) << nothing.front();
   EXPECT_FALSE(tried(negative + "[[limit]]\nkeep = \"abs(rate) < 100\"\n").notes.empty());
+  const auto fails = tried(with(reward, "formula = \"-1 - 1e-9 * sqrt(1.8 - abs(u))\"")).notes;
+  ASSERT_FALSE(fails.empty());
+  EXPECT_TRUE(fails.back().ends_with("floor = -1.1 would be safe")) << "failures pay like falls: " << fails.back();
 }
 
 TEST(TryOut, SaysWhereWholeTurnsCount) {

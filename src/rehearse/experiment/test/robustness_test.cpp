@@ -1,5 +1,7 @@
 #include "rehearse/experiment/robustness.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "line_run.hpp"
@@ -38,6 +40,27 @@ TEST(Robustness, LeavesOutWhatIsBeyondTheBoundsOfAnOption) {
   const auto all = robustness(bounded, line_with("noise", "0.01"), policy, {.episodes = 1}, serial_evaluator());
   ASSERT_EQ(all.size(), kFactors.size() - 1);
   EXPECT_EQ(all.back().factor, 1.125);
+}
+
+TEST(Robustness, GoesOnWhereAChangedRobotFails) {
+  const auto breaking = [](const std::string& key, const std::string& value) {
+    Resolved robot = line_with(key, value);
+    if (std::stod(value) > 1.2)
+      robot.scenario.make_plant = []() -> std::unique_ptr<system::Plant> { throw std::runtime_error("it broke"); };
+    return robot;
+  };
+  const Learned policy{std::make_shared<fake::LinePolicy>(), Vector{{-2, 0}}};
+  const Resolved run = line_with("noise", "0.01");
+  const auto all = robustness(breaking, run, policy, {.episodes = 2}, serial_evaluator());
+  ASSERT_EQ(all.size(), kFactors.size());
+  EXPECT_EQ(all[3].failure, "");
+  EXPECT_EQ(all[3].summary.returns.size(), 2u);
+  EXPECT_TRUE(all[4].failure.ends_with("it broke")) << all[4].failure;
+  const std::string table = robustness_csv(all, {});
+  EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 4) << table;
+  Resolved broken = run;
+  broken.scenario.make_plant = breaking("plant.gain", "2").scenario.make_plant;
+  EXPECT_THROW(robustness(line_with, broken, policy, {.episodes = 2}, serial_evaluator()), RunFailed);
 }
 
 TEST(Robustness, IsATable) {

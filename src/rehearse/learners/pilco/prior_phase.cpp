@@ -58,6 +58,7 @@ class PriorPhase {
     restore();
     if (state_.over) return state_.knowledge;
     while (!knows_enough()) one_episode();
+    require_steps();
     const Proposal& last = asked();
     PriorKnowledge& knowledge = state_.knowledge;
     knowledge.network = moments::mean_terms(trials_.terms(options_.inducing, knowledge.notes));
@@ -142,6 +143,15 @@ class PriorPhase {
   void note_failure(const Episode& episode) {
     if (episode.failure.empty()) return;
     state_.knowledge.notes.push_back(fmt::format("on the prior, episode {}: {}", done() + 1, episode.failure));
+  }
+
+  /// A prior that cannot make one step says nothing of the robot: what follows would be a policy as drawn.
+  void require_steps() const {
+    if (std::ranges::any_of(state_.episodes, [](const Episode& episode) { return episode.steps() > 0; })) return;
+    throw std::runtime_error(
+        fmt::format("none of {} episodes on the prior has a step: {}. No policy was learned that "
+                    "could move the robot",
+                    done(), state_.episodes.back().failure));
   }
 
   const Proposal& asked() {
