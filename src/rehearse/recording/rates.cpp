@@ -77,6 +77,8 @@ std::string note_on_unrelated(const std::string& state, const std::string& rate,
 
 std::string note_on_rate(const std::string& state, const std::string& rate, const Vector& expected,
                          const Vector& changes) {
+  constexpr double kRounding = 1e-12;  // of a way in any unit: nothing moves
+  if (expected.lpNorm<1>() < kRounding && changes.lpNorm<1>() < kRounding) return "";
   if (std::string note = note_on_unrelated(state, rate, expected, changes); !note.empty()) return note;
   const double xx = expected.squaredNorm(), xy = expected.dot(changes), yy = changes.squaredNorm();
   const double explained = xy * xy / (xx * yy);                                    // NaN where one never changes

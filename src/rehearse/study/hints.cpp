@@ -17,6 +17,7 @@ constexpr double kMuchBetter = 0.8;  // errors, of those as the logs are read
 constexpr double kSure = 2;          // deviations of a zero that is off
 constexpr Index kMostDelay = 10;     // control steps
 constexpr std::size_t kMostLogs = 4;
+constexpr double kRounding = 1e-12;  // of errors in any unit: there is nothing to explain
 constexpr Index kStarts = 50;  // of predictions in a log
 
 /// The log as if actions acted so many steps later. The actions before its beginning, or behind its end, are unknown.
@@ -39,6 +40,7 @@ class HintFinder {
   std::vector<Hint> find() {
     if (logs_.empty()) return {};
     as_read_ = errors_left(logs_, problem_, evaluator_);
+    if (as_read_.maxCoeff() < kRounding) return {};
     std::vector<Hint> all = {zeros(), delay()};
     for (Index a = 0; a < task_.action_size(); ++a) all.push_back(negated(a));
     std::erase_if(all, [](const Hint& hint) { return !(hint.errors < kMuchBetter); });

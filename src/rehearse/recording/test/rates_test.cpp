@@ -102,6 +102,9 @@ TEST(Rates, NothingIsSaidOfARobotAtRest) {
   EXPECT_EQ(notes_on_rates(swinging(StateKind::plain), still, still).size(), 0U);
   EXPECT_EQ(notes_on_rates(swinging(StateKind::plain), still.topRows(0), still.topRows(0)).size(), 0U)
       << "nor of no step";
+  Matrix rounding = still;
+  rounding.col(1).setConstant(1e-15);
+  EXPECT_EQ(notes_on_rates(swinging(StateKind::plain), rounding, rounding).size(), 0U);
 }
 
 }  // namespace

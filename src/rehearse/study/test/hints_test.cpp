@@ -68,6 +68,19 @@ TEST(Hints, NameTheActionOfTheOtherSign) {
             "the action torque seems to have the other sign: short forecasts would have 0.10 times the errors");
 }
 
+TEST(Hints, RoundingHasNone) {
+  const auto at_rest = [](double size) {
+    std::vector<Episode> logs = {delayed_swing(1, 4), delayed_swing(2, 4)};
+    for (Episode& log : logs) {
+      log.states *= size;
+      log.actions *= size;
+    }
+    return hints_of(logs);
+  };
+  EXPECT_FALSE(at_rest(1e-6).empty());
+  EXPECT_TRUE(at_rest(1e-15).empty());
+}
+
 TEST(Hints, ShortLogsHaveNone) { EXPECT_TRUE(hints_of({swinging_log(1, 0.1).episode.part(0, 15)}).empty()); }
 
 }  // namespace
