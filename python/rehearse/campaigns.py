@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
-from typing import Any, Union
+from typing import Any, NamedTuple, Union
 
 import numpy as np
 
@@ -167,21 +167,21 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
             "claim": claim}
     keys = {key: _entry(key, entry) for key, entry in keys.items()}
     keys = {key: entry for key, entry in keys.items() if entry is not None}
-    text, source, scenario, core, own = _given(given, robot, keys)
-    folder = path_or_none("out", out) or f"runs/{Path(source).stem}"
+    file = _file_of(given, robot, keys)
+    folder = path_or_none("out", out) or f"runs/{Path(file.source).stem}"
     part = "1/1" if share is None else text_of("share", share)
     threads, progress = threads_of(threads), function_or_none("progress", progress)
-    if own is not None and own.one_at_a_time:
+    if file.robot is not None and file.robot.one_at_a_time:
         threads = 1
     try:
-        _core.campaign(core, text, source, scenario, folder, part, threads, progress)
+        _core.campaign(file.core, file.text, file.source, file.scenario, folder, part, threads, progress)
     except _core.InvalidInput as error:
-        raise _core.InvalidInput(quoting(text.decode(errors="replace"), source, str(error))) from None
+        raise _core.InvalidInput(quoting(file.text.decode(errors="replace"), file.source, str(error))) from None
     except KeyboardInterrupt as stopped:
         if stopped.args or not Path(folder).exists():
             raise
         raise KeyboardInterrupt("interrupted: the same call goes on") from None
-    return Campaign(folder, own)
+    return Campaign(folder, file.robot)
 
 
 def open_campaign(folder: PathLike, robot: Union[Robot, None] = None) -> Campaign:
@@ -200,14 +200,21 @@ def _entry(key: str, entry: Any) -> Any:
     return mappings(key, entry) or None if key in ("variant", "claim") else entry
 
 
-def _given(given: Robots, robot: Union[Robots, None],
-           keys: dict[str, Any]) -> tuple[bytes, str, str, Any, Union[Robot, None]]:
-    """The campaign file's text and source, and the robot: the name of its scenario, for C++, and as it was given. Names
-    and robots are empty where the file alone says which."""
+class _File(NamedTuple):
+    """A campaign's file, and the robot that it is of."""
+
+    text: bytes
+    source: str
+    scenario: str  # empty: the file alone says which
+    core: Any  # the robot, for C++; empty where the scenario is
+    robot: Union[Robot, None]  # as it was given, where it is an object
+
+
+def _file_of(given: Robots, robot: Union[Robots, None], keys: dict[str, Any]) -> _File:
     name = "" if isinstance(given, Robot) else name_of(given)
     if name.endswith(".toml") and not keys:
         core, scenario = (_core.Robot("", "", ""), "") if robot is None else robot_of(robot)
-        return Path(name).read_bytes(), name, scenario, core, robot if isinstance(robot, Robot) else None
+        return _File(Path(name).read_bytes(), name, scenario, core, robot if isinstance(robot, Robot) else None)
     if name.endswith(".toml") and "learners" not in keys:
         raise _core.InvalidInput(f"learners is missing: {name} is taken for a robot's file, since that of a campaign is "
                                  "given without keys")
@@ -215,7 +222,7 @@ def _given(given: Robots, robot: Union[Robots, None],
         raise TypeError("robot goes with a campaign's file; else it is the first argument")
     core, scenario = robot_of(given)
     text = _text({"format": 1, "scenario": scenario, **keys})
-    return text.encode(), f"{scenario}-campaign", scenario, core, given if isinstance(given, Robot) else None
+    return _File(text.encode(), f"{scenario}-campaign", scenario, core, given if isinstance(given, Robot) else None)
 
 
 def _text(keys: Mapping[str, Any]) -> str:
