@@ -134,10 +134,6 @@ void Options::fields(FieldVisitor& v) {
 
 system::OdeKernel kernel() { return system::equation_kernel(); }
 
-std::shared_ptr<const system::Simulator> make_simulator(const Physics& physics, double dt_s, Index substeps) {
-  return system::make_ode_simulator(kernel(), parameters(physics), dt_s, substeps);
-}
-
 scenario::Scenario make(const Options& options) {
   return scenario::make_ode_scenario({.name = "pendubot",
                                       .task = make_task(options),

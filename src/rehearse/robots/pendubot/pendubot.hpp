@@ -2,7 +2,6 @@
 // The pendubot: two links, a torque on the first joint alone, to be swung up (Chatzilygeroudis 2018, section V).
 
 #include <memory>
-#include <string>
 
 #include "rehearse/core/options.hpp"
 #include "rehearse/scenario/ode_scenario.hpp"
@@ -28,8 +27,5 @@ scenario::Scenario make(const Options& options);
 std::unique_ptr<scenario::ScenarioBuilder> builder();
 
 system::OdeKernel kernel();  // of equation.hpp
-
-/// Vectorised simulator with parameters m1, m2, l1, l2, b1, b2, all fixed at `physics`.
-std::shared_ptr<const system::Simulator> make_simulator(const Physics& physics, double dt_s, Index substeps);
 
 }  // namespace rehearse::robots::pendubot
