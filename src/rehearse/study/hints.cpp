@@ -18,7 +18,7 @@ constexpr double kSure = 2;          // deviations of a zero that is off
 constexpr Index kMostDelay = 10;     // control steps
 constexpr std::size_t kMostLogs = 4;
 constexpr double kRounding = 1e-12;  // of errors in any unit: there is nothing to explain
-constexpr Index kStarts = 50;  // of predictions in a log
+constexpr Index kStarts = 50;        // of predictions in a log
 
 /// The log as if actions acted so many steps later. The actions before its beginning, or behind its end, are unknown.
 Episode late(const Episode& log, Index steps) {
