@@ -1,4 +1,4 @@
-"""What a learner would stumble over, found before anything is learned."""
+"""Checks of a robot: faults that a learner would stumble over, found before anything is learned."""
 
 from __future__ import annotations
 

@@ -123,7 +123,7 @@ class GaussianProcess:
             self._core = _core.condition_gp(*self._data, logs, self._tolerance_of_data)
 
     def match_moments(self, mean: npt.ArrayLike, covariance: npt.ArrayLike) -> tuple[Array, Array, Array]:
-        """Of an input N(mean (D), covariance (D × D)): mean (E) and covariance (E × E) of the function's values, and
+        """Mean (E) and covariance (E × E) of the function's values for an input N(mean (D), covariance (D × D)), and
         their covariance with the input (D × E), in closed form (Deisenroth 2011). Not with a trend or a tolerance."""
         m, S = np.asarray(mean, float).reshape(-1), np.atleast_2d(np.asarray(covariance, float))
         fitted, inputs = self._fitted, self._inputs
@@ -150,7 +150,7 @@ class GaussianProcess:
 
     @property
     def lengths(self) -> Array:
-        """Of the inputs: D, or E × D."""
+        """Length scales of the inputs: D, or E × D."""
         lengths: Array = self._per_output(np.exp(self.log_hyperparameters[:, : self._inputs]))
         return lengths
 
@@ -177,7 +177,7 @@ class GaussianProcess:
         return self._core
 
     def _covariance(self, X: Array, logs: Array, jitter: float) -> Array:
-        """Of one output (Rasmussen 2006, eq. 2.24). jitter: times σ_f², what C++ had to add to the data's covariance."""
+        """The covariance of one output (Rasmussen 2006, eq. 2.24). jitter: times σ_f², what C++ had to add to the data's covariance."""
         lengths, signal, noise, trend = np.split(np.exp(logs), [self._inputs, self._inputs + 1, self._inputs + 2])
 
         def kernel(A: Array, B: Array) -> Array:

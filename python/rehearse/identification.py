@@ -19,7 +19,7 @@ from .tables import TEXTS, as_files, from_csv, without_path
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Identification:
-    """What logs tell of a robot (docs/identify.md).
+    """The result of `identify`: a robot's parameters as logs tell them (docs/identify.md).
 
     parameters: value and 95 % interval of each, with those that leave a log out. accuracy: errors and coverage of
     forecasts of logs left out, by horizon and state. tables: all, by name. summary: in words. notes: how logs were

@@ -42,7 +42,7 @@ class State:
 
 @dataclass(frozen=True)
 class Action:
-    """What moves the robot: a number inside its bounds, held for a control step.
+    """A number that moves the robot, inside its bounds, held for a control step.
 
     max_rate: of the command, in units of the action a second. filter_s: time constant of the low-pass that commands go
     through. delay_s: from the command until the robot gets it. lag_s: time constant with which it then follows. remember:
@@ -82,7 +82,7 @@ class Success:
 
 @dataclass(frozen=True)
 class Limit:
-    """What every step must keep: a formula, or a function of states, actions and the states that the steps reach.
+    """A condition that every step must keep: a formula, or a function of states, actions and the states that the steps reach.
 
     A function of five arguments is given the actions one step before, too (0 in the first step), and the time since the
     start when the steps begin, in s. risk: the largest probability that an episode of a policy breaks it.

@@ -45,7 +45,7 @@ class Run:
 
     @property
     def spec(self) -> dict[str, Any]:
-        """What the run is: robot, learner, prior, seed, planned (trials; 0: by `ask` and `tell`), until_solved, and options,
+        """The run's settings: robot, learner, prior, seed, planned (trials; 0: by `ask` and `tell`), until_solved, and options,
         every one as `options=` takes it: {"learner.search.finalists": "4", "scenario.start_noise": "0", …}."""
         about = self._describe()
         return {name: about[name] for name in ("robot", "learner", "prior", "seed", "planned", "until_solved", "options")}
@@ -70,11 +70,11 @@ class Run:
         return read_csv(path, TEXTS, WHOLE)
 
     def trajectory(self, trial: int) -> Array:
-        """What the robot did: time, states measured and true, actions, reward; a row a step."""
+        """The robot's motion: time, states measured and true, actions, reward; a row a step."""
         return self._table_of(trial, "trajectories")
 
     def prediction(self, trial: int) -> Array:
-        """What the model expected: mean and quantiles of each state; a row a step. The trial that is asked for has
+        """The model's expectation: mean and quantiles of each state; a row a step. The trial that is asked for has
         one, too."""
         return self._table_of(trial, "predictions")
 

@@ -122,7 +122,7 @@ class MapElites(_Search):
         return self._core.ask()
 
     def tell(self, performances: npt.ArrayLike, descriptors: npt.ArrayLike) -> None:
-        """What they were worth (batch), and how they did it (batch × D)."""
+        """Takes the values of the points that were asked for (batch), and how they did it (batch × D)."""
         given = np.atleast_1d(numbers("descriptors", descriptors))
         if given.ndim > 2:
             raise _core.InvalidInput(f"descriptors has {given.ndim} dimensions, must be batch × D")

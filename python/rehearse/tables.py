@@ -168,7 +168,7 @@ def _seconds(column: Any) -> Any:
 
 
 def _missing(column: Any) -> Array:
-    """Of each number of a column whether it stands for a sample that is missing. NaN of NumPy alone may as well come of
+    """Whether each number of a column stands for a sample that is missing. NaN of NumPy alone may as well come of
     a sensor that failed."""
     if hasattr(column, "isna"):
         return np.asarray(column.isna())

@@ -1,7 +1,7 @@
 #pragma once
 // Products and triangular factors of dense matrices, for use where Eigen's, which are compiled for any x86-64, are too
 // slow: some 8 times with AVX-512. The same bits on every processor and thread. Sizes are the caller's to get right
-// (asserted). What is above the diagonal of a lower triangular matrix is neither read nor written.
+// (asserted). The part above the diagonal of a lower triangular matrix is neither read nor written.
 
 #include <cassert>
 

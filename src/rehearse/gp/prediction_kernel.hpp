@@ -14,8 +14,8 @@ constexpr Size kChunk = 128;
 /// Queries go through the loops in groups of at most so many, of which kChunk is a multiple.
 constexpr Size kGroup = 32;
 
-/// Points of a kernel: scaled inputs, and unless null the coordinates z of the trend (kernel.hpp). Of training points
-/// n × D and n × (D + 1), row by row; of queries D × kChunk and (D + 1) × kChunk, row by row.
+/// Points of a kernel: scaled inputs, and unless null the coordinates z of the trend (kernel.hpp). Those of
+/// training points are n × D and n × (D + 1), row by row; those of queries D × kChunk and (D + 1) × kChunk.
 struct KernelPoints {
   const double* scaled;
   const double* z = nullptr;

@@ -2,7 +2,7 @@
 // Pairs of terms under an input so narrow that the correlations hardly change over it, without the cancellation that
 // sums over all pairs of points suffer there: with h_i = √scale exp(z_iᵀ A z_i) and t_ij = z_iᵀ C z_j (PairForm),
 // E[c_i c_j] = h_i h_j exp(t_ij) ≈ h_i h_j (1 + t_ij) has the rank 1 + D, and the reduction of a variance is a sum of
-// squares. What is left out is of the order t².
+// squares. The rest is of the order t².
 
 #include "rehearse/moments/moment_kernel.hpp"
 #include "rehearse/moments/moment_term.hpp"

@@ -41,8 +41,8 @@ class Propagation {
   /// features are not as many as those of the dynamics.
   bool forward(const Gaussian& state, const Transformed& features, StepTape& tape, Gaussian& next) const;
 
-  /// Adds to the adjoints of what a step began with what the adjoint of the next state brings. Of a prior
-  /// `differentiate` comes before.
+  /// Adds to the adjoints of what a step began with what the adjoint of the next state brings. Where there is a
+  /// prior, `differentiate` comes before.
   void adjoint(const Gaussian& state, const Transformed& features, const StepTape& tape, const Gaussian& next_adjoint,
                StepAdjoint adjoint) const;
 

@@ -62,7 +62,7 @@ struct ModelParameter {
 
 /// A MuJoCo model as a robot. States and actions are those of the task, in its order. Positions and velocities of
 /// joints that no state gives begin every step of a simulator where the keyframe has them: `warnings_of` lists them.
-/// MuJoCo cuts actions to the ranges of their actuators. Of a URDF it keeps collision shapes alone, joins links whose
+/// MuJoCo cuts actions to the ranges of their actuators. From a URDF it keeps collision shapes alone, joins links whose
 /// joint is fixed, and looks for meshes beside the file, whatever folder they are said to be in.
 struct ModelDescription {
   std::string path;      // MJCF or URDF; files that it names are looked for beside it

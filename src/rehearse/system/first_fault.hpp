@@ -14,8 +14,8 @@ struct Fault {
   std::string why;  // what it threw; empty: it gave no finite change
 };
 
-/// Keeps one of the rows that a simulator could not simulate, for people. Of several it is the smallest, number by
-/// number, so that it does not depend on threads. Any thread.
+/// Keeps one of the rows that a simulator could not simulate, for people: the smallest, number by number, so
+/// that it does not depend on threads. Any thread.
 class FirstFault {
  public:
   void add(const ConstVectorView& x, const ConstVectorView& u, const std::string& why);
