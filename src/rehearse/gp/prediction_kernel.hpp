@@ -15,7 +15,8 @@ constexpr Size kChunk = 128;
 constexpr Size kGroup = 32;
 
 /// Points of a kernel: scaled inputs, and unless null the coordinates z of the trend (kernel.hpp). Those of
-/// training points are n × D and n × (D + 1), row by row; those of queries D × kChunk and (D + 1) × kChunk.
+/// training points are n × D and n × (D + 1), row by row; those of queries D × kChunk and
+/// (D + 1) × kChunk, too.
 struct KernelPoints {
   const double* scaled;
   const double* z = nullptr;
