@@ -141,4 +141,13 @@ expect 0 "best return" learn own.toml --learner gp-mi --trials 1 "${quick[@]}" -
 rm own.toml
 expect 0 "own/evaluation.csv has the numbers" evaluate own --episodes 5
 expect 0 "own/robustness.csv has the numbers" evaluate own --episodes 5 --robustness
+
+# A robot that fails where it is light.
+"$program" new light >/dev/null
+sed -i 's|dtheta = "(u|dtheta = "where(u == 0, 0, 1e-9 * sqrt(m - 0.85)) + (u|' light.toml
+expect 0 "best return" learn light.toml --learner gp-mi --trials 1 "${quick[@]}" --out light
+expect 0 "light/robustness.csv has the numbers" evaluate light --episodes 2 --robustness
+grep -q "^m  *fails  *[0-9]" said || fail "the table has no failure: $(cat said)"
+grep -q "^  m 0.75: .*dtheta = -\?nan, must be finite" said || fail "why it fails is not said: $(cat said)"
+grep -q ",m,0.75," light/robustness.csv && fail "a robot that fails has a row: $(cat light/robustness.csv)"
 finish
