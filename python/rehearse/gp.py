@@ -177,7 +177,8 @@ class GaussianProcess:
         return self._core
 
     def _covariance(self, X: Array, logs: Array, jitter: float) -> Array:
-        """The covariance of one output (Rasmussen 2006, eq. 2.24). jitter: times σ_f², what C++ had to add to the data's covariance."""
+        """The covariance of one output (Rasmussen 2006, eq. 2.24). jitter: times σ_f², what C++ had to add to that of the
+        data."""
         lengths, signal, noise, trend = np.split(np.exp(logs), [self._inputs, self._inputs + 1, self._inputs + 2])
 
         def kernel(A: Array, B: Array) -> Array:

@@ -82,7 +82,8 @@ class Success:
 
 @dataclass(frozen=True)
 class Limit:
-    """A condition that every step must keep: a formula, or a function of states, actions and the states that the steps reach.
+    """A condition that every step must keep: a formula, or a function of states, actions and the states that the steps
+    reach.
 
     A function of five arguments is given the actions one step before, too (0 in the first step), and the time since the
     start when the steps begin, in s. risk: the largest probability that an episode of a policy breaks it.
