@@ -77,16 +77,8 @@ class Search {
   /// The cheapest of the states that the robot can stay in, looked for from some of the cheapest that were drawn.
   std::optional<Hold> cheapest() const {
     const StepCosts costs = this->costs(scale_, kActionCost);
-    const Vector of_staying = costs.of_staying(states_, actions_, end_s_);
-    std::optional<Hold> best;
-    double lowest = kInf;
-    for (const Index i : begun(of_staying)) {
-      auto hold = find_hold(problem_, costs, states_.row(i).transpose(), actions_.row(i).transpose(), end_s_);
-      if (!hold) continue;
-      const double cost = costs.of_staying(hold->stage.state.transpose(), hold->stage.action.transpose(), end_s_)(0);
-      if (cost < lowest) lowest = cost, best = std::move(hold);
-    }
-    return best;
+    const std::vector<Index> rows = begun(costs.of_staying(states_, actions_, end_s_));
+    return find_cheapest_hold(problem_, costs, states_(rows, Eigen::all), actions_(rows, Eigen::all), end_s_);
   }
 
   /// The cheapest states that differ; the start is one of them.

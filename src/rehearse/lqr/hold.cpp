@@ -130,4 +130,17 @@ std::optional<Hold> find_hold(const Problem& problem, const StepCosts& costs, co
   return Hold{{u, x, std::move(gain)}, std::move(value)};
 }
 
+std::optional<Hold> find_cheapest_hold(const Problem& problem, const StepCosts& costs, const Matrix& states,
+                                       const Matrix& actions, double time_s) {
+  std::optional<Hold> best;
+  double lowest = kInf;
+  for (Index i = 0; i < states.rows(); ++i) {
+    auto hold = find_hold(problem, costs, states.row(i).transpose(), actions.row(i).transpose(), time_s);
+    if (!hold) continue;
+    const double cost = costs.of_staying(hold->stage.state.transpose(), hold->stage.action.transpose(), time_s)(0);
+    if (cost < lowest) lowest = cost, best = std::move(hold);
+  }
+  return best;
+}
+
 }  // namespace rehearse::lqr

@@ -22,4 +22,8 @@ struct Hold {
 std::optional<Hold> find_hold(const Problem& problem, const StepCosts& costs, const Vector& state, const Vector& action,
                               double time_s);
 
+/// The cheapest of those that are found from each row of states and actions. nullopt if there is none. Any thread.
+std::optional<Hold> find_cheapest_hold(const Problem& problem, const StepCosts& costs, const Matrix& states,
+                                       const Matrix& actions, double time_s);
+
 }  // namespace rehearse::lqr

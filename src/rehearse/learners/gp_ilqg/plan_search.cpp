@@ -181,21 +181,19 @@ class Search {
   /// The cheapest of those near the cheapest state of each plan.
   std::optional<lqr::Hold> best_hold(const std::vector<Plan>& plans, const PlanOptions& options) const {
     const lqr::StepCosts costs(problem_.task, options.cost);
-    std::optional<lqr::Hold> best;
-    double lowest = kInf;
+    const double end_s = static_cast<double>(steps_to_plan(problem_.task, search_)) * problem_.task.dt_s;
+    const auto most = static_cast<Index>(plans.size());
+    Matrix states(most, problem_.task.state_size()), actions(most, problem_.task.action_size());
+    Index rows = 0;
     for (const Plan& plan : plans) {
       if (plan.steps == 0) continue;
-      const Matrix actions = actions_of(plan);
+      const Matrix taken = actions_of(plan);
       Index cheapest = 0;
-      const double end_s = static_cast<double>(plan.stages.size() - 1) * problem_.task.dt_s;
-      costs.of_staying(plan.states.topRows(plan.steps), actions, end_s).minCoeff(&cheapest);
-      auto hold = lqr::find_hold(problem_, costs, plan.states.row(cheapest).transpose(),
-                                 actions.row(cheapest).transpose(), end_s);
-      if (!hold) continue;
-      const double cost = costs.of_staying(hold->stage.state.transpose(), hold->stage.action.transpose(), end_s)(0);
-      if (cost < lowest) lowest = cost, best = std::move(hold);
+      costs.of_staying(plan.states.topRows(plan.steps), taken, end_s).minCoeff(&cheapest);
+      states.row(rows) = plan.states.row(cheapest);
+      actions.row(rows++) = taken.row(cheapest);
     }
-    return best;
+    return lqr::find_cheapest_hold(problem_, costs, states.topRows(rows), actions.topRows(rows), end_s);
   }
 
   Matrix actions_of(const Plan& plan) const {

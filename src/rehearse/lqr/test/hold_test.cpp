@@ -45,6 +45,25 @@ TEST(Hold, IsNotThereWhereTheActionsAreTooWeak) {
   EXPECT_FALSE(find_hold({model, task, serial_evaluator()}, costs, Vector{{1.2, 0}}, Vector{{0}}, 0));
 }
 
+TEST(CheapestHold, IsTheBestOfThoseThatAreThere) {
+  const Task task = upright::task(0.5, 0);  // too weak to stay where gravity pulls most
+  const upright::Model model;
+  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-3});
+  const Problem problem{model, task, serial_evaluator()};
+  const auto from = [&](const Matrix& states) {
+    return find_cheapest_hold(problem, costs, states, Matrix::Zero(states.rows(), 1), 0);
+  };
+  const Matrix hanging{{3.1, 0}}, upright{{0.2, 0.5}}, too_far{{1.5, 0}};
+  Matrix all(3, 2);
+  all << too_far, hanging, upright;
+  const auto best = from(all), alone = from(upright), worse = from(hanging);
+  ASSERT_TRUE(best && alone && worse);
+  EXPECT_EQ(best->stage.state, alone->stage.state);
+  EXPECT_GT(std::abs(worse->stage.state(0)), 2);
+  EXPECT_FALSE(from(too_far));
+  EXPECT_FALSE(from(Matrix(0, 2)));
+}
+
 TEST(Hold, KnowsItsActionBeforeAndTheTime) {
   Task task = upright::task(2, 0.5);
   const upright::Model model;
