@@ -23,7 +23,7 @@ std::string complaint(Call call) {
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-struct SizesFixture : testing::Test {
+struct SizesFixture : ::testing::Test {
   Matrix X = naive::normals(12, 3, 1), Y = naive::normals(12, 2, 2);
   Inputs inputs{X};
   Hyperparameters theta = naive::hyperparameters(3, 1, 1, 0.1);

@@ -12,7 +12,7 @@ namespace rehearse::identification {
 namespace {
 
 /// GPs fitted to what the swing of wrong parameters leaves of 30 steps.
-struct HeldKernelsTest : testing::Test {
+struct HeldKernelsTest : ::testing::Test {
   FitProblem problem(Score score) const { return {residuals, &prior, score, {}, serial_evaluator()}; }
   Fit fitted(const FitProblem& at, const Vector& phi) const {
     Fit fit = unfitted(phi, 2, {});
