@@ -34,7 +34,7 @@ endfunction()
 # Makes the folder it is called from a room: one static library rehearse_NAME (rehearse::NAME when installed) of its
 # *.cpp, those of FOLDERS included, and one test program of its test/*.cpp; with SOURCES of those alone, and no test. USES is the room's row in the table of
 # docs/architecture.md, ALONE what is not compiled together with others, TEST_USES what its tests use beside that: a file that includes a header of another room is an
-# error at configure time, so the build enforces the direction. COLD: nothing in it takes long, so compiling it must not
+# error at configure time, so the build enforces the direction; so is a room of which nothing is included. COLD: nothing in it takes long, so compiling it must not
 # either (rehearse_cold).
 function(rehearse_room name)
   cmake_parse_arguments(ROOM "COLD" "" "SOURCES;ALONE;USES;FOLDERS;LINKS;PRIVATE_LINKS;TEST_USES;TEST_LINKS" ${ARGN})
@@ -54,7 +54,7 @@ function(rehearse_room name)
     install(FILES ${more_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rehearse/${name}/${folder})
   endforeach()
   list(APPEND all_headers ${headers})
-  rehearse_check_includes("${name}" "${ROOM_USES}" "${sources};${all_headers}")
+  rehearse_check_includes("${name}" "${ROOM_USES}" "${ROOM_USES}" "${sources};${all_headers}")
 
   list(TRANSFORM ROOM_USES REPLACE "/" "_" OUTPUT_VARIABLE uses)
   list(TRANSFORM uses PREPEND rehearse_)
@@ -92,7 +92,7 @@ function(rehearse_room name)
 
   file(GLOB tests CONFIGURE_DEPENDS test/*.cpp)
   file(GLOB test_headers CONFIGURE_DEPENDS test/*.hpp)
-  rehearse_check_includes("${name}" "${ROOM_USES};${ROOM_TEST_USES}" "${tests};${test_headers}")
+  rehearse_check_includes("${name}" "${ROOM_USES};${ROOM_TEST_USES}" "${ROOM_TEST_USES}" "${tests};${test_headers}")
   if(REHEARSE_TESTS AND tests AND NOT ROOM_SOURCES)
     add_executable(test_${target} ${tests})
     rehearse_together(test_${target})
@@ -116,8 +116,8 @@ function(rehearse_room_of path result)
   set(${result} "${folder}" PARENT_SCOPE)
 endfunction()
 
-# Stops unless these files include headers of the room `name` and of the rooms it uses alone.
-function(rehearse_check_includes name uses files)
+# Stops unless these files include headers of the room `name` and of `allowed` rooms alone, and some of each of `needed`.
+function(rehearse_check_includes name allowed needed files)
   foreach(file IN LISTS files)
     if(NOT file)
       continue()
@@ -126,10 +126,15 @@ function(rehearse_check_includes name uses files)
     foreach(line IN LISTS includes)
       string(REGEX REPLACE ".*[\"<]rehearse/([^\">]*)[\">].*" "\\1" header "${line}")
       rehearse_room_of(${header} other)
-      if(NOT other STREQUAL name AND NOT other IN_LIST uses)
+      list(REMOVE_ITEM needed "${other}")
+      if(NOT other STREQUAL name AND NOT other IN_LIST allowed)
         message(FATAL_ERROR "${file} includes a header of room '${other}', which room '${name}' may not use:\n  ${line}\n"
                             "Rooms and their direction: docs/architecture.md")
       endif()
     endforeach()
   endforeach()
+  if(needed)
+    message(FATAL_ERROR "Room '${name}' says that it uses '${needed}', of which its files include nothing.\n"
+                        "Rooms and their direction: docs/architecture.md")
+  endif()
 endfunction()
