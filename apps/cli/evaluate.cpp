@@ -114,8 +114,7 @@ void print_robustness(const std::vector<experiment::Changed>& all) {
     }
   }
   put("\n");
-  for (const experiment::Changed& each : all)
-    if (!each.failure.empty()) put("  {} {:.4g}: {}\n", each.parameter, each.value, each.failure);
+  for (const std::string& line : experiment::robustness_failures(all)) put("  {}\n", line);
 }
 
 /// An older file of this name is kept under another one.

@@ -51,6 +51,7 @@ std::string robustness(const Robot& robot, const EvaluationRequest& request, int
   with_evaluation(robot, request, threads, [&](const PreparedEvaluation& prepared, const Evaluator& evaluator) {
     const auto all = experiment::robustness(prepared, evaluator);
     table = experiment::robustness_csv(all, prepared.about());
+    warn(experiment::robustness_failures(all));
   });
   return table;
 }

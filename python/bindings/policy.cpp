@@ -12,6 +12,8 @@
 #include "python/bindings/interruption.hpp"
 #include "python/bindings/robot.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
+#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/resolve.hpp"
 
 namespace rehearse::python {
@@ -58,11 +60,29 @@ Policy Policy::with_theta(const Vector& theta) const {
 
 namespace {
 
+/// Options of learners have no effect on a policy.
+void require_of_robot(const experiment::Catalogue& catalogue, const std::string& scenario,
+                      const learners::OptionTexts& options) {
+  const auto builder = catalogue.scenario(scenario);
+  if (!builder) return;  // resolving it says why
+  std::vector<std::string> known;
+  for (const auto& [name, text] : list_fields([&](FieldVisitor& v) { builder->fields(v); })) {
+    known.push_back(name);
+    known.push_back("scenario." + name);
+  }
+  Violations violations;
+  for (const auto& [key, text] : options)
+    violations.require(is_among(key, known), experiment::unknown_option(key, known, "a robot"));
+  violations.throw_if_any();
+}
+
 /// The policy that a robot's learners search for, at θ; no θ: zeros.
 Policy policy_for(const Robot& robot, const std::string& scenario,
                   const std::vector<std::pair<std::string, std::string>>& options, const std::optional<Vector>& theta) {
+  const experiment::Catalogue catalogue = robot.to_look();
+  require_of_robot(catalogue, scenario, options);
   const experiment::Resolved resolved = experiment::resolve(
-      robot.to_look(), {.scenario = scenario, .learner = "black-drops", .options = options});  // needs no prior
+      catalogue, {.scenario = scenario, .learner = "black-drops", .options = options});  // needs no prior
   const auto& policy = resolved.scenario.policy;
   const Task& task = resolved.scenario.task;
   const policy::Answers asked{.states = task.start_mean.transpose(), .times_s = Vector::Zero(1), .actions = {}};

@@ -66,13 +66,6 @@ void resumable(const Robot& robot, const std::filesystem::path& folder, const st
   }
 }
 
-/// Gives the lines as Python's warnings, about the line that called the function of Python that called this.
-void warn(const std::vector<std::string>& lines) {
-  const py::gil_scoped_acquire locked;
-  for (const std::string& line : lines)
-    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
-}
-
 /// Other readings of the trials, such as a delay, where trials do not get better; none where nothing is found. What a
 /// prior raises there is no fault of the trials, which are done.
 Strings other_readings(const Robot& robot, const experiment::Catalogue& catalogue, const std::filesystem::path& folder,

@@ -55,6 +55,12 @@ class Listener final : public experiment::RunListener {
 
 }  // namespace
 
+void warn(const std::vector<std::string>& lines) {
+  const py::gil_scoped_acquire locked;
+  for (const std::string& line : lines)
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
+}
+
 void work_with(const Robot& robot, const Settings& settings, const Work& work) {
   require_processor();
   require_outside_of_robots();

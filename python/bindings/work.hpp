@@ -6,6 +6,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "python/bindings/interruption.hpp"
 #include "python/bindings/robot.hpp"
@@ -25,6 +27,9 @@ using Work = std::function<void(const Robot& own, const experiment::RunOptions& 
 
 /// Does the work and raises what a function of Python raised, as it was; KeyboardInterrupt where Ctrl-C stopped it.
 void work_with(const Robot& robot, const Settings& settings, const Work& work);
+
+/// Gives the lines as Python's warnings, about the line that called the function of Python that called this.
+void warn(const std::vector<std::string>& lines);
 
 /// Lets ten events of progress a second pass: each waits for Python.
 class Throttle {

@@ -160,7 +160,7 @@ class Run:
                    policy: Union[Policy, PathLike, None] = None, seconds: float = 0.0, seed: Union[int, None] = None,
                    options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Array:
         """Such episodes with one parameter of the robot changed at a time, by factors of 0.75 to 1.25: the rows of
-        robustness.csv (docs/evaluate.md); a changed robot that fails has none. An environment has no parameters to change."""
+        robustness.csv (docs/evaluate.md); a changed robot that fails has none, and a warning says why. An environment has no parameters to change."""
         text = _core.robustness(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
         return from_csv(text, TEXTS, WHOLE)
 

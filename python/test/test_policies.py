@@ -129,6 +129,8 @@ def test_a_policy_needs_no_run(tmp_path):
     np.testing.assert_array_equal(run.policy(1).theta, theta)
     with pytest.raises(rehearse.InvalidInput, match="unknown option"):
         rehearse.Policy.of(robot, options={"hiden": 3})
+    with pytest.raises(rehearse.InvalidInput, match="unknown option 'start_from_best'"):  # a learner's
+        rehearse.Policy.of(robot, options={"start_from_best": False})
 
 
 def test_a_file_that_is_no_policy_is_refused(tmp_path):

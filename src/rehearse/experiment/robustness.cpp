@@ -97,6 +97,13 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
   return all;
 }
 
+std::vector<std::string> robustness_failures(const std::vector<Changed>& all) {
+  std::vector<std::string> lines;
+  for (const Changed& each : all)
+    if (!each.failure.empty()) lines.push_back(fmt::format("{} {:.4g}: {}", each.parameter, each.value, each.failure));
+  return lines;
+}
+
 std::string robustness_csv(const std::vector<Changed>& all, const EvaluationAbout& about) {
   using files::Csv;
   std::vector<std::string> header = kAboutColumns;

@@ -29,6 +29,9 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator);
 
+/// Why changed robots fail, a line each: "mass 0.75: …". Empty: none does.
+std::vector<std::string> robustness_failures(const std::vector<Changed>& all);
+
 /// robustness.csv: a row a parameter and factor, but for robots that fail.
 std::string robustness_csv(const std::vector<Changed>& all, const EvaluationAbout& about);
 

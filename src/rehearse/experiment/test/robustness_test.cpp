@@ -58,6 +58,7 @@ TEST(Robustness, GoesOnWhereAChangedRobotFails) {
   EXPECT_TRUE(all[4].failure.ends_with("it broke")) << all[4].failure;
   const std::string table = robustness_csv(all, {});
   EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 4) << table;
+  EXPECT_EQ(robustness_failures(all), std::vector{all[4].parameter + " 1.25: " + all[4].failure});
   Resolved broken = run;
   broken.scenario.make_plant = breaking("plant.gain", "2").scenario.make_plant;
   EXPECT_THROW(robustness(line_with, broken, policy, {.episodes = 2}, serial_evaluator()), RunFailed);
