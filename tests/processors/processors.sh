@@ -7,6 +7,8 @@ qemu=$2 emulated=$3
 
 few=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10)
 short=(--set search.line_searches=3 --set search.restarts=0 --set policy=rbf --set centres=10)
+"$program" new short.toml >output || fail "new: $(cat output)"
+sed -i 's/^horizon = .*/horizon = 12/' short.toml  # emulation is slow
 run() { # run FOLDER RUN LAUNCHER… : the run named RUN
   local out=$1 name=$2
   shift 2
@@ -18,6 +20,7 @@ run() { # run FOLDER RUN LAUNCHER… : the run named RUN
     black-drops) arguments=(cartpole --learner black-drops "${few[@]}") ;;
     black-drops-prior) arguments=(pendulum --learner black-drops-prior "${few[@]}" --set model.gp.mirror=on) ;;
     gp-mi-pendulum) arguments=(pendulum --learner gp-mi "${few[@]}") ;;
+    gp-mi-short) arguments=(short.toml --learner gp-mi "${few[@]}" --set search.race.max_evaluations=200) ;;
     pilco) arguments=(pendulum --learner pilco "${short[@]}") ;;
     pilco-prior) arguments=(pendulum --learner pilco-prior "${short[@]}" --set pilco.prior_episodes=2) ;;
     pi-rem) arguments=(pendubot --learner pi-rem --prior useful --set centres=10 "${short[@]}") ;;
@@ -37,7 +40,7 @@ compare() {
   for file in "$1"/predictions/*; do same "$1" "$2" "predictions/${file##*/}"; done
 }
 
-runs=(gp-mi gp-mi-noise gp-mi-pendulum mi black-drops black-drops-prior pilco pilco-prior pi-rem ite gp-ilqg)
+runs=(gp-mi gp-mi-noise gp-mi-pendulum gp-mi-short mi black-drops black-drops-prior pilco pilco-prior pi-rem ite gp-ilqg)
 "$program" list | grep -q '^ *hexapod' && runs+=(hexapod)
 for name in "${runs[@]}"; do
   begin=$(milliseconds)

@@ -12,10 +12,10 @@ case $learner in
   pilco-prior)  # most instants are in the episodes on the prior
     arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=3 --set search.line_searches=4 --set model.inducing=40) ;;
   pi-rem)
-    arguments=(pendulum --set centres=10 --set search.line_searches=20 --set search.prior_searches=3
+    arguments=(pendulum --set centres=10 --set search.line_searches=8 --set search.prior_searches=3
       --set model.identify=true) ;;
   ite)
-    arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=20000)
+    arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=10000)
     files=(archive.bin elites.csv tried.csv) ;;
   gp-ilqg)
     arguments=(pendubot --prior useful --set identify=true --set search.starts=2 --set search.first_iterations=5
