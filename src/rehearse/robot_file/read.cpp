@@ -231,6 +231,7 @@ class Reader {
       files::TomlReader reader(*part, "[policy]", violations_);
       reader.take_fields([&](FieldVisitor& v) { robot_.options.policy.fields(v); });
       reader.finish();
+      for (const auto& [key, value] : *part) robot_.stated.emplace_back(key.str());
     }
   }
 

@@ -120,6 +120,7 @@ struct Robot {
   Variant plant;
   std::vector<Variant> priors;  // the first is the default
   scenario::OdeOptions options;
+  std::vector<std::string> stated;  // options of the policy that the file sets
   std::vector<Body> bodies;
   std::vector<scenario::NamedFile> files;  // of programs and models
   Functions functions;

@@ -104,6 +104,7 @@ class Builder final : public scenario::ScenarioBuilder {
     return scenario;
   }
 
+  std::vector<std::string> stated() const override { return robot_.stated; }
   std::vector<scenario::NamedFile> files() const override { return robot_.files; }
 
   scenario::Details details() const override {

@@ -125,6 +125,22 @@ TEST(Spec, WhatALearnerPrefersOfAScenarioComesBeforeAllElse) {
   EXPECT_EQ(noise({}), "0.4");
 }
 
+/// The line of a robot's file that says how large the noise is.
+struct StatedLine final : fake::LineBuilder {
+  std::vector<std::string> stated() const override { return {"noise"}; }
+};
+
+TEST(Spec, WhatARobotsFileSaysComesBeforeWhatALearnerPrefers) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios = {{"line", [] { return std::make_unique<StatedLine>(); }}};
+  catalogue.learner_families = {[] {
+    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
+    family.push_back(std::make_unique<Choosy>());
+    return family;
+  }};
+  EXPECT_EQ(resolve(catalogue, spec_of("echo", "near")).spec.options[1].second, "0.01");
+}
+
 /// A learner with options that contradict each other.
 class Contradictory final : public fake::EchoBuilder {
  public:

@@ -25,6 +25,13 @@ TEST(RobotFile, MakesAScenarioWithEverythingOfTheFile) {
   EXPECT_TRUE(scenario.priors[0].parameters.has_tunable());
 }
 
+TEST(RobotFile, SaysWhatItStatesOfThePolicy) {
+  const auto stated = [](const std::string& text) { return builder(text, "swing.toml", example::no_files)->stated(); };
+  EXPECT_EQ(stated(std::string(kSwing)), std::vector<std::string>{});
+  EXPECT_EQ(stated(example::with("[plant]", "[policy]\npolicy = \"linear\"\nhidden = 5\n[plant]")),
+            (std::vector<std::string>{"hidden", "policy"}));
+}
+
 // u + m g l sin θ over m l².
 TEST(RobotFile, PlantAndPriorsFollowTheEquation) {
   const scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
