@@ -71,7 +71,8 @@ void add_learn(CLI::App& app, LearnArguments& arguments) {
   add(command, "--trials", arguments.trials,
       "Trials on the plant; 0: none, trials come by `ask` and `tell`. Default: 10", "N");
   command->add_flag("--until-solved", arguments.until_solved, "End before, with a trial that solves the task");
-  add(command, "--seed", arguments.seed, "Of all random numbers: the same seed gives the same run. Default: 1", "S");
+  add(command, "--seed", arguments.seed, "Seed of all random numbers: the same one gives the same run. Default: 1",
+      "S");
   add(command, "--threads", arguments.threads,
       "Threads to compute with; results do not depend on it. Default: all cores", "K");
   add(command, "--out", arguments.out,
@@ -134,7 +135,7 @@ void add_campaign(CLI::App& app, CampaignArguments& arguments) {
       "all cores",
       "K");
   add(command, "--share", arguments.share,
-      "Of N processes that work on the folder at the same time, be the K-th and do every N-th run; the same command "
+      "Be the K-th of N processes that work on the folder at the same time, and do every N-th run; the same command "
       "without it, when all have ended, writes the tables",
       "K/N");
   command->add_flag("--dry-run", arguments.dry_run, "Check the file and say what would be done, without doing it");
@@ -195,7 +196,7 @@ void add_evaluate(CLI::App& app, EvaluateArguments& arguments) {
   add(command, "--policy", arguments.policy, "A policy that `export` wrote as JSON, instead", "FILE.json");
   add(command, "--episodes", arguments.episodes, "Episodes on the scenario's plant. Default: 100", "M");
   add(command, "--seconds", arguments.seconds, "Length of an episode. Default: as the task says", "S");
-  add(command, "--seed", arguments.seed, "Of starts and noise. Default: the run's", "S");
+  add(command, "--seed", arguments.seed, "Seed of starts and noise. Default: the run's", "S");
   add(command, "--set", arguments.set,
       "Set an option that `list SCENARIO` shows, for instance plant.m1=0.6; may be repeated", "KEY=VALUE")
       ->expected(1)

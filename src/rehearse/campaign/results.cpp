@@ -1,7 +1,6 @@
 #include "rehearse/campaign/results.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -50,8 +49,7 @@ RunOutcome outcome_of(files::Table trials, Index planned_trials) {
   outcome.trials.rows.resize(rows);
   for (const auto& number : outcome.trials.numbers("interaction_s"))
     outcome.interaction_s.push_back(number.value_or(0));
-  for (const auto& number : outcome.trials.numbers("return"))
-    outcome.returns.push_back(number.value_or(-std::numeric_limits<double>::infinity()));
+  for (const auto& number : outcome.trials.numbers("return")) outcome.returns.push_back(number.value_or(-kInf));
   for (const auto& number : outcome.trials.numbers("solved"))
     outcome.solved.push_back(number ? std::optional(*number != 0) : std::nullopt);
   return outcome;

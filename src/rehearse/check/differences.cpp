@@ -1,7 +1,6 @@
 #include "rehearse/check/differences.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,8 +11,7 @@ namespace rehearse::check {
 
 Matrix apart(const Matrix& one, const Matrix& other) {
   return one.binaryExpr(other, [](double a, double b) {
-    if (std::isnan(a) || std::isnan(b))
-      return std::isnan(a) && std::isnan(b) ? 0 : std::numeric_limits<double>::infinity();
+    if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b) ? 0 : kInf;
     return std::abs(a - b);
   });
 }

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 namespace rehearse {
@@ -72,7 +71,7 @@ double to_double(const Fraction& fraction) {
 }  // namespace
 
 double reduced_angle(double x) {
-  if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(x)) return kNaN;
   if (std::abs(x) <= std::numbers::pi) return x;
   int exponent = 0;
   const auto whole = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(x), &exponent), 53));

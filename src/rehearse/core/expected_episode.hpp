@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "rehearse/core/types.hpp"
 
 namespace rehearse {
@@ -13,9 +11,8 @@ struct ExpectedEpisode {
 
   /// An episode of which nothing is known: all numbers are NaN.
   static ExpectedEpisode unknown(Index steps, Index dx) {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    const Matrix by_state = Matrix::Constant(steps + 1, dx, nan);
-    const Vector by_step = Vector::Constant(steps, nan);
+    const Matrix by_state = Matrix::Constant(steps + 1, dx, kNaN);
+    const Vector by_step = Vector::Constant(steps, kNaN);
     return {by_state, by_state, by_step, by_step};
   }
 };

@@ -12,7 +12,7 @@ FeatureMap::FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joi
   std::vector<Index> first;  // feature of each state
   for (const StateKind kind : kinds_) {
     first.push_back(features_);
-    features_ += kind == StateKind::angle ? 2 : kind == StateKind::plain ? 1 : 0;
+    features_ += features_of(kind);
   }
   const auto of_state = [&](Index state) {
     if (state < 0 || state >= states() || kinds_[static_cast<std::size_t>(state)] != StateKind::angle)

@@ -14,6 +14,9 @@ enum class StateKind {
   omitted,  // not at all (a translation that the dynamics does not depend on)
 };
 
+/// The number of inputs that a state of this kind has.
+inline Index features_of(StateKind kind) { return kind == StateKind::angle ? 2 : kind == StateKind::plain ? 1 : 0; }
+
 /// The angle between a link and the one that carries it: angle − parent. Both are states of kind angle.
 struct JointAngle {
   Index angle = 0, parent = 0;

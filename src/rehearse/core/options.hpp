@@ -13,7 +13,6 @@
 
 #include <concepts>
 #include <functional>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -26,8 +25,8 @@ namespace rehearse {
 
 /// The values a number may take.
 struct Bound {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
+  double low = -kInf;
+  double high = kInf;
   bool low_open = false;  // low itself is not allowed
   bool infinite = false;  // infinity is
 };

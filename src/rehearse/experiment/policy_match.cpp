@@ -1,7 +1,6 @@
 #include "rehearse/experiment/policy_match.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -172,7 +171,7 @@ Vector deviations(const ReadEpisode& read, const scenario::Scenario& scenario, c
 }
 
 double largest_deviation(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial) {
-  if (read.episode.steps() == 0) return std::numeric_limits<double>::infinity();
+  if (read.episode.steps() == 0) return kInf;
   return largest_part(deviations(read, scenario, trial), scenario.task);
 }
 

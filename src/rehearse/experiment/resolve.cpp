@@ -151,12 +151,10 @@ class Resolver {
       violations_.add(why_unknown(key));
   }
 
-  /// Sets the scenario's options that the learner prefers, as far as the scenario has them and a robot's file does not
-  /// say what they are.
+  /// Sets the options that the learner prefers, as far as the scenario has them and no robot's file sets them.
   void set_preferences() {
-    const std::vector<std::string> stated = scenario_builder_->stated();
     for (const auto& [key, text] : learner_builder_->scenario_defaults()) {
-      if (is_among(key, stated)) continue;
+      if (is_among(key, scenario_builder_->stated())) continue;
       try {
         set_field(fields_of(*scenario_builder_), key, text);
       } catch (const InvalidInput&) {  // no such value: as if nothing were preferred

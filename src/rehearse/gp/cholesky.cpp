@@ -1,7 +1,6 @@
 #include "rehearse/gp/cholesky.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "rehearse/gp/kernel.hpp"
 
@@ -15,7 +14,7 @@ double factorise(const ScaledCovariance& c, double* tiles) {
       for (Size i = 0; i < tiles_size(c.n); ++i) tiles[i] += c.noise_factor * c.noise[i];
     if (tiles_cholesky(c.n, tiles)) return jitter;
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return kNaN;
 }
 
 double factorise(const Matrix& covariance, double noise_ratio, double* tiles) {
@@ -24,7 +23,7 @@ double factorise(const Matrix& covariance, double noise_ratio, double* tiles) {
     for (Index i = 0; i < covariance.rows(); ++i) tiles[entry_offset(i, i)] += noise_ratio + jitter;
     if (tiles_cholesky(covariance.rows(), tiles)) return jitter;
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return kNaN;
 }
 
 void lower_to_tiles(const Matrix& lower, double* tiles) {

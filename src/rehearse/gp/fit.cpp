@@ -253,8 +253,7 @@ Fit fit_parsimoniously(const Inputs& inputs, const ConstVectorView& y, double sc
   const double floor = options.bounds.noise_floor * usable_scale(scale);
   const Fit none = noise_alone(y, floor, start.hyperparameters);
   const double value = each.log_evidence - (D + 1) * cost;
-  const double of_one =
-      one.status == Fit::Status::failed ? -std::numeric_limits<double>::infinity() : one.log_evidence - 2 * cost;
+  const double of_one = one.status == Fit::Status::failed ? -kInf : one.log_evidence - 2 * cost;
   if (value > std::max(of_one, none.log_evidence)) return each;
   return of_one > none.log_evidence ? one : none;
 }

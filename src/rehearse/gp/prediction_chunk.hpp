@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "rehearse/core/vector_math.hpp"
@@ -119,10 +118,9 @@ class PredictionChunk {
     if (!only_mean) triangular_norms(output.inverse_factor.data(), support, columns.data(), rows, norms);
   }
 
-  double mean(Index q) const { return missing[q] ? std::numeric_limits<double>::quiet_NaN() : means[q]; }
+  double mean(Index q) const { return missing[q] ? kNaN : means[q]; }
   double variance(Index q, const PosteriorOutput& output) const {
-    return missing[q] ? std::numeric_limits<double>::quiet_NaN()
-                      : output.signal_variance * std::max(0.0, priors[q] - norms[q]);
+    return missing[q] ? kNaN : output.signal_variance * std::max(0.0, priors[q] - norms[q]);
   }
 
  protected:

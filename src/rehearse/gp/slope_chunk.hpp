@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "rehearse/gp/prediction_chunk.hpp"
@@ -66,8 +65,8 @@ class SlopeChunk : public PredictionChunk {
     for (Index q = 0; q < rows; ++q) {
       variance_by.row(q) *= variance(q, output) > 0 ? output.signal_variance : 0;
       if (!missing[q]) continue;
-      mean_by.row(q).setConstant(std::numeric_limits<double>::quiet_NaN());
-      variance_by.row(q).setConstant(std::numeric_limits<double>::quiet_NaN());
+      mean_by.row(q).setConstant(kNaN);
+      variance_by.row(q).setConstant(kNaN);
     }
   }
 

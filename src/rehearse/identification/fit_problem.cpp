@@ -8,7 +8,7 @@ namespace rehearse::identification {
 void FitProblem::refit(Fit& fit, const gp::FitOptions& options) const {
   const dynamics::Residuals::Rows rows = residuals.at(prior, fit.phi);
   fit.left_out = rows.left_out;
-  fit.score = -std::numeric_limits<double>::infinity();
+  fit.score = -kInf;
   if (!rows.inputs) return;
   const auto outputs = static_cast<Index>(fit.kernels.size());
   fit.log_evidences.resize(outputs);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,7 +16,7 @@ struct Fit {
   std::vector<gp::FitStart> kernels;  // one an output; no length scales: not fitted yet
   Vector log_evidences;               // one an output, nats; NaN where the kernel could not be fitted
   Index left_out = 0;                 // rows whose prior mean is not finite
-  double score = -std::numeric_limits<double>::infinity();
+  double score = -kInf;
   Index evaluations = 0;  // values of φ scored on the way here
 };
 

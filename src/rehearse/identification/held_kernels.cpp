@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "rehearse/optim/damping.hpp"
@@ -102,7 +101,7 @@ Matrix HeldKernels::targets(const Vector& z) const {
 }
 
 HeldKernels::At HeldKernels::at(const Vector& z) const {
-  At at{targets(z), {}, {}, -std::numeric_limits<double>::infinity()};
+  At at{targets(z), {}, {}, -kInf};
   if (!at.targets.allFinite()) return at;
   const Index outputs = at.targets.cols();
   at.whitened.resize(at.targets.rows(), outputs);
@@ -132,7 +131,7 @@ Quadratics HeldKernels::quadratics(const Vector& z, const At& at) const {
 
 double held_score(const FitProblem& problem, const Fit& fit) {
   if (fit.kernels.front().hyperparameters.inputs() == 0 || !problem.residuals.at(problem.prior, fit.phi).inputs)
-    return -std::numeric_limits<double>::infinity();
+    return -kInf;
   const HeldKernels held(problem, fit);
   return held.at(held.start()).score;
 }

@@ -1,7 +1,6 @@
 #include "rehearse/identification/least_squares.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "rehearse/gp/bounds.hpp"
 #include "rehearse/identification/coordinates.hpp"
@@ -111,7 +110,7 @@ Identified least_squares(const dynamics::Residuals& residuals, const prior::Prio
   if (options.method == LeastSquares::Method::subplex || !continuous)
     return identify(prior.space, start, score, options.subplex);
   const std::vector<Index> discrete = prior.space.of_kind(Parameter::Kind::discrete);
-  Identified best{.phi = phi, .score = -std::numeric_limits<double>::infinity()};
+  Identified best{.phi = phi, .score = -kInf};
   for (const Vector& choice : choices_of(prior.space, discrete)) {
     phi(discrete) = choice;
     const Identified found = Descents(errors, Coordinates(prior.space, phi), options).run();

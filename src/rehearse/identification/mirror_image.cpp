@@ -28,7 +28,7 @@ Vector signs_of_images(const FeatureMap& features, Index actions) {
   Index f = 0;
   for (const StateKind kind : features.kinds()) {
     if (kind == StateKind::angle) signs(f) = 1;
-    f += kind == StateKind::angle ? 2 : kind == StateKind::plain ? 1 : 0;
+    f += features_of(kind);
   }
   for (std::size_t j = 0; j < features.joints().size(); ++j, f += 2) signs(f) = 1;
   return signs;

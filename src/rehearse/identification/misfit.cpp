@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "rehearse/gp/evidence.hpp"
@@ -40,7 +39,7 @@ std::vector<Index> nearest_rows(const gp::Inputs& inputs) {
   std::vector<Index> nearest(static_cast<std::size_t>(X.cols()));
   for (Index i = 0; i < X.cols(); ++i) {
     Vector distances = (X.colwise() - X.col(i)).colwise().squaredNorm();
-    distances(i) = std::numeric_limits<double>::infinity();
+    distances(i) = kInf;
     distances.minCoeff(&nearest[static_cast<std::size_t>(i)]);
   }
   return nearest;

@@ -1,7 +1,5 @@
 #include "rehearse/identification/parameter_search.hpp"
 
-#include <limits>
-
 namespace rehearse::identification {
 namespace {
 
@@ -23,7 +21,7 @@ Identified identify(const ParameterSpace& space, const std::optional<Vector>& st
                     const optim::ScalarObjective& score, const optim::SubplexOptions& options) {
   const std::vector<Index> continuous = space.of_kind(Parameter::Kind::continuous);
   const std::vector<Index> discrete = space.of_kind(Parameter::Kind::discrete);
-  Identified best{.phi = start.value_or(space.values()), .score = -std::numeric_limits<double>::infinity()};
+  Identified best{.phi = start.value_or(space.values()), .score = -kInf};
   const Vector first = best.phi;
   const auto consider = [&](const Vector& phi, double value, Index evaluations) {
     best.evaluations += evaluations;

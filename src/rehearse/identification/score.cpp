@@ -1,7 +1,6 @@
 #include "rehearse/identification/score.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace rehearse::identification {
 namespace {
@@ -13,7 +12,7 @@ double sign(Score score) { return score == Score::sum ? 1 : -1; }
 
 double score_of(const Vector& log_likelihoods, Score score) {
   if (log_likelihoods.size() == 0) return 0;
-  if (!log_likelihoods.allFinite()) return -std::numeric_limits<double>::infinity();
+  if (!log_likelihoods.allFinite()) return -kInf;
   if (score == Score::product) return log_likelihoods.sum();
   const double largest = (sign(score) * log_likelihoods).maxCoeff();
   const double log_sum = largest + std::log((sign(score) * log_likelihoods.array() - largest).exp().sum());

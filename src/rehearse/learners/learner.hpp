@@ -128,8 +128,8 @@ class LearnerBuilder {
   virtual bool takes_start() const { return false; }  // it may begin with a policy (Setting::start)
   virtual bool tunes_prior() const { return false; }  // with these options it learns parameters of the prior
   virtual void fields(FieldVisitor& v) = 0;
-  /// Options of the scenario that suit this learner, where neither a robot's file, nor a preset, nor the user sets them:
-  /// the policy that it needs. Those that a scenario does not have, or not with that value, are left as they are.
+  /// Options of the scenario that suit this learner, where neither a robot's file, nor a preset, nor the user sets
+  /// them: the policy that it needs. Those that a scenario does not have, or not with that value, are left as they are.
   virtual OptionTexts scenario_defaults() const { return {}; }
   /// Reasons why these options cannot do with a task or a policy, a line each: wrong input that can be found before
   /// anything is built.

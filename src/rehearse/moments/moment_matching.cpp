@@ -1,7 +1,6 @@
 #include "rehearse/moments/moment_matching.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -59,7 +58,7 @@ void MomentMatching::prepare(const Gaussian& input, MomentTape& tape) const {
   tape.means.resize(terms, 1);
   tape.gains.resize(D, terms);
   tape.pairs.resize(1 + D + D * D, pairs);
-  tape.covariances.setConstant(pairs, std::numeric_limits<double>::quiet_NaN());
+  tape.covariances.setConstant(pairs, kNaN);
   tape.ok.resize(terms_.size() + pairs_.size());
   if (!parameters_) return;
   tape.sums.resize(3 * D * D, pairs);

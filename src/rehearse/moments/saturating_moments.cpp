@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Cholesky>
 
@@ -18,7 +17,7 @@ struct Expectation {
     towards = inverse * m;
     value = std::exp(-m.dot(towards) / 2) / llt.matrixLLT().diagonal().prod();
   }
-  double value = std::numeric_limits<double>::quiet_NaN();
+  double value = kNaN;
   Matrix inverse;  // (I + s)⁻¹
   Vector towards;  // (I + s)⁻¹ m
 };

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -93,7 +92,7 @@ class Tags {
 
 /// A number of points along a side. References to characters could be any number.
 double side(std::string_view text) {
-  if (text.find('&') != std::string_view::npos) return std::numeric_limits<double>::infinity();
+  if (text.find('&') != std::string_view::npos) return kInf;
   return std::max(std::strtod(std::string(text).c_str(), nullptr), 0.);
 }
 

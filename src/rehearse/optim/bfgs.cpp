@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -26,7 +25,7 @@ void check(const Vector& start, const BfgsOptions& options) {
 
 struct Point {
   Vector x, gradient;
-  double value = std::numeric_limits<double>::quiet_NaN();
+  double value = kNaN;
   bool ok() const { return std::isfinite(value) && gradient.allFinite(); }
 };
 
@@ -102,12 +101,11 @@ class Search {
   /// A point that fulfils Wolfe's conditions, or at least the first; not ok if there is none.
   Point search_line(const Vector& direction, double slope) {
     Point found;
-    Mark low{0, at_.value, slope}, high{std::numeric_limits<double>::infinity(), 0, 0};
+    Mark low{0, at_.value, slope}, high{kInf, 0, 0};
     double step = std::min(1.0, kLongestStep / direction.cwiseAbs().maxCoeff());
     for (int i = 0; i < kTrials && evaluations_ < options_.max_evaluations; ++i) {
       Point next = evaluate(at_.x + step * direction);
-      const Mark mark{step, next.ok() ? next.value : std::numeric_limits<double>::quiet_NaN(),
-                      next.gradient.dot(direction)};
+      const Mark mark{step, next.ok() ? next.value : kNaN, next.gradient.dot(direction)};
       if (mark.value >= at_.value + kRise * step * slope && mark.value >= low.value) {
         found = std::move(next);
         low = mark;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/optim/median.hpp"
 
@@ -88,6 +89,16 @@ std::vector<std::string> start_violations(const Vector& start, const std::vector
                                   to_text(box[k].low), to_text(box[k].high)));
   }
   return lines;
+}
+
+void require_searchable(const Vector& start, const std::vector<Interval>& box,
+                        const std::vector<std::string>& of_options) {
+  Violations violations;
+  violations.add(of_options);
+  violations.require(!box.empty(), "box is empty, must have an interval for each coordinate");
+  violations.add(box_violations(box, start.size()));
+  violations.add(start_violations(start, box));
+  violations.throw_if_any();
 }
 
 Vector uniform_point(const std::vector<Interval>& box, double part, const StreamKey& key) {

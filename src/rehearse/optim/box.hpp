@@ -47,6 +47,11 @@ std::vector<std::string> box_violations(const std::vector<Interval>& box, Index 
 /// A line for everything that makes `start` unfit: empty, not finite, outside the box (if there is one).
 std::vector<std::string> start_violations(const Vector& start, const std::vector<Interval>& box);
 
+/// Throws InvalidInput, with these lines and those of options (field_violations), unless `box` is there and one to
+/// search in from `start`.
+void require_searchable(const Vector& start, const std::vector<Interval>& box,
+                        const std::vector<std::string>& of_options);
+
 /// A random point (n) for a search to begin at: uniform in the middle `part` of each side of the box (0 to 1).
 Vector uniform_point(const std::vector<Interval>& box, double part, const StreamKey& key);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "rehearse/core/errors.hpp"
@@ -130,7 +129,7 @@ class Search {
       if (mark.ok() && mark.gradient.allFinite()) return mark;
       step = (from.step + step) / 2;
     }
-    mark.cost = std::numeric_limits<double>::quiet_NaN();
+    mark.cost = kNaN;
     return mark;
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <Eigen/QR>
@@ -17,9 +16,7 @@ constexpr double kLeastDamping = 1e-12;
 constexpr double kFlat = 1e-12;  // of ‖c‖: slopes below are rounding
 constexpr int kMostDampings = 14;
 
-double sum_of_squares(const Vector& r) {
-  return r.allFinite() ? r.squaredNorm() : std::numeric_limits<double>::infinity();
-}
+double sum_of_squares(const Vector& r) { return r.allFinite() ? r.squaredNorm() : kInf; }
 
 /// ‖r + J d‖² as ‖c + R d‖² and a constant, with as many rows as there are coordinates.
 struct Linear {

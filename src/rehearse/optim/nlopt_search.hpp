@@ -2,7 +2,6 @@
 // A maximisation by NLopt that survives exceptions and values that are not finite.
 
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -24,7 +23,7 @@ class NloptSearch {
   void maximise(const Vector& start, Index max_evaluations);
 
   Vector best_x;  // the start as long as no value was finite
-  double best_value = std::numeric_limits<double>::quiet_NaN();
+  double best_value = kNaN;
   Index evaluations = 0;
   std::string stop;
 

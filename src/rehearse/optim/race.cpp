@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -104,7 +103,7 @@ class Race {
       candidates_.col(2 * i + 1) = runners_[static_cast<std::size_t>(i)].descent.mean();
     }
     evaluate(std::clamp((options_.max_evaluations - evaluations_) / (2 * n), Index{1}, options_.judgements));
-    values_ = values_.array().isNaN().select(-std::numeric_limits<double>::infinity(), values_);
+    values_ = values_.array().isNaN().select(-kInf, values_);
     for (Index i = 0; i < n; ++i) {
       const Index j = values_(2 * i + 1) > values_(2 * i) ? 2 * i + 1 : 2 * i;
       Runner& runner = runners_[static_cast<std::size_t>(i)];
@@ -134,7 +133,7 @@ class Race {
   Vector values_;
   std::uint64_t next_candidate_ = 0;
   Index evaluations_ = 0;
-  double best_ = -std::numeric_limits<double>::infinity();
+  double best_ = -kInf;
 };
 
 }  // namespace

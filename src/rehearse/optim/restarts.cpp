@@ -5,20 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/core/errors.hpp"
 #include "rehearse/optim/usable.hpp"
 
 namespace rehearse::optim {
 namespace {
-
-void check(const Vector& start, const std::vector<Interval>& box, const SearchOptions& options) {
-  Violations violations;
-  violations.add(field_violations("search", options));
-  violations.require(!box.empty(), "box is empty, must have an interval for each coordinate");
-  violations.add(box_violations(box, start.size()));
-  violations.add(start_violations(start, box));
-  violations.throw_if_any();
-}
 
 /// The start of the next descent.
 struct Plan {
@@ -261,7 +251,7 @@ void SearchOptions::fields(FieldVisitor& v) {
 
 SearchResult maximise(const BatchObjective& objective, const Vector& start, const std::vector<Interval>& box,
                       const SearchOptions& options, const StreamKey& key, const SearchListener& listener) {
-  check(start, box, options);
+  require_searchable(start, box, field_violations("search", options));
   return Search(objective, start, box, options, key, listener).run();
 }
 

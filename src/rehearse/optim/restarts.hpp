@@ -1,7 +1,6 @@
 #pragma once
 // Global search: descents of CMA-ES one after the other.
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,8 @@ struct SearchOptions {
   double step = 0.2;               // first σ of a descent, as a fraction of the box's width; Hansen 2009
   double start_step = 0;           // the same for the descent from the given start; 0: step
   Index max_doublings = 9;         // of the population; Hansen 2009
-  double target = std::numeric_limits<double>::infinity();  // stop at this value
-  Index candidates = 4;      // of the best points, and as many of the means, go into the result
+  double target = kInf;            // stop at this value
+  Index candidates = 4;            // of the best points, and as many of the means, go into the result
   bool means_alone = false;  // no best points: with noise these are the luckiest (libcmaes with uncertainty handling)
   Index final_samples = 0;   // evaluations of each of these at the end, to choose by; 0: chosen as they were seen
   Index reserved() const { return 2 * candidates * final_samples; }  // evaluations for that

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/optim/box.hpp"
@@ -44,7 +43,7 @@ struct Rprop {
 GradientResult maximise_rprop(const Differentiable& objective, const Vector& start, const RpropOptions& options) {
   check(start, options);
   const Index n = start.size();
-  GradientResult best{start, std::numeric_limits<double>::quiet_NaN(), 0, "max_evaluations"};
+  GradientResult best{start, kNaN, 0, "max_evaluations"};
   Rprop search{options, start, Vector::Zero(n), Vector::Constant(n, options.first_step)};
   Vector x = start, gradient = Vector::Zero(n);
   while (best.evaluations < options.max_evaluations) {

@@ -1,21 +1,11 @@
 #include <cmath>
 
-#include "rehearse/core/errors.hpp"
 #include "rehearse/optim/box.hpp"
 #include "rehearse/optim/derivative_free.hpp"
 #include "rehearse/optim/nlopt_search.hpp"
 
 namespace rehearse::optim {
 namespace {
-
-void check(const Vector& start, const std::vector<Interval>& box, const SubplexOptions& options) {
-  Violations violations;
-  violations.add(field_violations("subplex", options));
-  violations.require(!box.empty(), "box is empty, must have an interval for each coordinate");
-  violations.add(box_violations(box, start.size()));
-  violations.add(start_violations(start, box));
-  violations.throw_if_any();
-}
 
 ScalarResult search_once(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,
                          const SubplexOptions& options, Index max_evaluations) {
@@ -37,7 +27,7 @@ ScalarResult search_once(const ScalarObjective& objective, const Vector& start, 
 
 ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,
                               const SubplexOptions& options) {
-  check(start, box, options);
+  require_searchable(start, box, field_violations("subplex", options));
   ScalarResult best = search_once(objective, start, box, options, options.max_evaluations);
   while (options.repeat && best.evaluations < options.max_evaluations) {
     ScalarResult next = search_once(objective, best.x, box, options, options.max_evaluations - best.evaluations);

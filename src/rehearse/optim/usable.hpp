@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
+
+#include "rehearse/core/types.hpp"
 
 namespace rehearse::optim {
 
 /// The value of what has none that is finite: worse than all.
-inline constexpr double kWorst = -std::numeric_limits<double>::infinity();
+inline constexpr double kWorst = -kInf;
 
 inline double usable(double value) { return std::isfinite(value) ? value : kWorst; }
 

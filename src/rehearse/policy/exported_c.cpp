@@ -32,7 +32,7 @@ constexpr const char* kFrame = R"(/* @NAME@: a @MARK@.
 @MEMORY_DEFINE@#define @UPPER@_DT_S @DT_S@
 #define @UPPER@_STEPS @STEPS@
 
-/* Of NaN it is low: a compiler may compute ahead what is used for finite states alone. */
+/* NaN gives low: a compiler may compute ahead what is used for finite states alone. */
 static inline double @NAME@_limit(double x, double low, double high) { return x > low ? x < high ? x : high : low; }
 
 @MEMORY_START@static inline int @NAME@_act(const double @MEASURED@[@STATES@], double time_s,@MEMORY_PARAMETER@ double action[@ACTIONS@]) {

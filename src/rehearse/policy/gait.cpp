@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -65,7 +64,7 @@ class Gait final : public Policy, public Describable {
         U(i, leg * kJointsOfLeg + 2) = -lift;
       }
     for (Index i = 0; i < X.rows(); ++i)
-      if (X.row(i).hasNaN()) U.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      if (X.row(i).hasNaN()) U.row(i).setConstant(kNaN);
   }
 
   /// One period.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rehearse/policy/rbf_kernel.cpp"
@@ -156,7 +155,7 @@ struct Memory {
     const Index needed = Block::vectors(wanted) * lanes;
     if (shape == wanted && allocated > 0) return;
     if (needed > allocated) block = hwy::AllocateAligned<double>(static_cast<std::size_t>(needed)), allocated = needed;
-    std::fill_n(block.get(), needed, std::numeric_limits<double>::quiet_NaN());  // which no θ is
+    std::fill_n(block.get(), needed, kNaN);  // which no θ is
     shape = wanted;
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,8 +29,7 @@ class Schedule final : public Policy, public Describable {
       const bool lost = X.row(row).array().isNaN().any();
       for (Index a = 0; a < actions(); ++a) {
         const auto [low, high] = bounds_[static_cast<std::size_t>(a)];
-        U(row, a) =
-            lost ? std::numeric_limits<double>::quiet_NaN() : std::clamp(Theta(row, a * steps_ + step), low, high);
+        U(row, a) = lost ? kNaN : std::clamp(Theta(row, a * steps_ + step), low, high);
       }
     }
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -51,8 +50,8 @@ Index Archive::best() const {
 Statistics Archive::statistics(double floor) const {
   Statistics s{.filled = size(),
                .coverage = static_cast<double>(size()) / static_cast<double>(niches_.size()),
-               .best = -std::numeric_limits<double>::infinity(),
-               .mean = std::numeric_limits<double>::quiet_NaN()};
+               .best = -kInf,
+               .mean = kNaN};
   if (size() == 0) return s;
   double sum = 0;
   for (Index elite = 0; elite < size(); ++elite) {

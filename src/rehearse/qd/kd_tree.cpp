@@ -16,7 +16,7 @@ Index widest(Index begin, Index end, const ConstMatrixView& points, const std::v
   Index axis = 0;
   double width = -1;
   for (Index d = 0; d < points.rows(); ++d) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double low = kInf, high = -low;
     for (Index i = begin; i < end; ++i) {
       const double x = points(d, order[static_cast<std::size_t>(i)]);
       low = std::min(low, x);
@@ -37,7 +37,7 @@ template <int D>
 struct KdTree::Search {
   const KdTree& tree;
   const double* query;
-  double best = std::numeric_limits<double>::infinity();  // squared distance
+  double best = kInf;  // squared distance
   Index found = std::numeric_limits<Index>::max();
   double offsets[D > 0 ? D : kMostDimensions];  // of the query from the cell that is visited, along each axis
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rehearse::qd {
 namespace {
@@ -43,7 +42,7 @@ NearestTable::NearestTable(const KdTree& tree, Matrix points) : points_(std::mov
 Index NearestTable::nearest(const double* query) const {
   const Index box = box_of(query), D = points_.rows();
   if (box < 0) return -1;
-  double best = std::numeric_limits<double>::infinity();
+  double best = kInf;
   Index found = -1;
   for (std::uint32_t c = begins_[static_cast<std::size_t>(box)]; c < begins_[static_cast<std::size_t>(box) + 1]; ++c) {
     const double* point = points_.data() + candidates_[c] * D;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -155,7 +154,7 @@ double last_hold_s(const Channel& action, const Channels& channels, double dt_s,
 }  // namespace
 
 Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& problems) {
-  double begin_s = 0, end_s = std::numeric_limits<double>::infinity();
+  double begin_s = 0, end_s = kInf;
   for_each_channel(channels, [&](const Channel& c) { begin_s = std::max(begin_s, c.samples.front().time_s); });
   for (const Channel& state : channels.states) end_s = std::min(end_s, state.samples.back().time_s);
   for (const Channel& truth : channels.truths) end_s = std::min(end_s, truth.samples.back().time_s);

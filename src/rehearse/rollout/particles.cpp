@@ -1,7 +1,6 @@
 #include "rehearse/rollout/particles.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -65,7 +64,7 @@ class Chunk {
   const Matrix& states() const { return X_; }
 
  private:
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNone = kNaN;
 
   void draw(Purpose purpose, Index t) {
     key_.purpose = purpose;

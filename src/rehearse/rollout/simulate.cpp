@@ -1,7 +1,6 @@
 #include "rehearse/rollout/simulate.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "rehearse/rollout/lockstep.hpp"
 
@@ -96,7 +95,7 @@ Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, In
     recorded.rewards.col(t) = chunk.returns() - before;
     recorded.states.push_back(chunk.states());
     for (Index p = 0; p < particles; ++p)
-      if (!chunk.alive(p)) recorded.states.back().row(p).setConstant(std::numeric_limits<double>::quiet_NaN());
+      if (!chunk.alive(p)) recorded.states.back().row(p).setConstant(kNaN);
   }
   episodes.finish(task, chunk.returns());
   recorded.returns = episodes.returns;

@@ -75,11 +75,11 @@ class ScenarioBuilder {
   virtual std::string name() const = 0;
   virtual std::string summary() const = 0;  // one line for `rehearse list`
   virtual std::vector<std::string> prior_names() const = 0;
-  virtual void fields(FieldVisitor& v) = 0;                    // plant.NAME, noise, …
-  virtual Scenario build() const = 0;                          // throws InvalidInput
+  virtual void fields(FieldVisitor& v) = 0;                       // plant.NAME, noise, …
+  virtual Scenario build() const = 0;                             // throws InvalidInput
   virtual std::vector<std::string> stated() const { return {}; }  // options of the policy that the robot's file sets
-  virtual std::vector<NamedFile> files() const { return {}; }  // what it is made of beside the robot's file
-  virtual Details details() const { return {}; }               // parts may be empty
+  virtual std::vector<NamedFile> files() const { return {}; }     // what it is made of beside the robot's file
+  virtual Details details() const { return {}; }                  // parts may be empty
 };
 
 /// Each call makes a new one, since its options can be set.

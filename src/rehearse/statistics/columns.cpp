@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <vector>
 
 #include "rehearse/statistics/quantiles.hpp"
@@ -13,14 +12,14 @@ namespace {
 
 /// The mean, computed relative to the first value, so that the mean of equal values is that value.
 double mean_beside_first(const std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return kNaN;
   double sum = 0;
   for (double value : values) sum += value - values.front();
   return values.front() + sum / static_cast<double>(values.size());
 }
 
 double deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (values.size() < 2) return kNaN;
   const double middle = mean_beside_first(values);
   double sum = 0;
   for (double value : values) sum += (value - middle) * (value - middle);

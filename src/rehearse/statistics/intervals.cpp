@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include <boost/math/special_functions/beta.hpp>
 
@@ -12,14 +11,13 @@
 namespace rehearse::statistics {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTail = (1 - kConfidence) / 2;
 constexpr std::size_t kAllSubsetsUpTo = 14;  // values
 constexpr std::size_t kSubsets = (std::size_t{1} << kAllSubsetsUpTo) - 1;
 
 /// Between the k-th smallest and the k-th largest (from 1), or everything if k = 0.
 Interval order_statistics(std::vector<double> values, std::size_t k) {
-  if (k == 0) return {-kInfinity, kInfinity};
+  if (k == 0) return {-kInf, kInf};
   std::sort(values.begin(), values.end());
   return {values[k - 1], values[values.size() - k]};
 }

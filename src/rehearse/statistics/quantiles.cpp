@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "rehearse/core/types.hpp"
 
 namespace rehearse::statistics {
 namespace {
 
 double of_sorted(const std::vector<double>& sorted, double fraction) {
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (sorted.empty()) return kNaN;
   const double position = fraction * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(position);
   const double rest = position - static_cast<double>(below);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "rehearse/identification/phi_posterior.hpp"
 #include "rehearse/rollout/particles.hpp"
@@ -12,7 +11,7 @@
 namespace rehearse::study {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNone = kNaN;
 constexpr double kLeast = 1e-9;  // deviation: that of a model that is certain is 0
 
 /// Mean and deviation of particles in each column, in the rows of a start; NaN if fewer than half are left.

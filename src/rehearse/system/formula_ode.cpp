@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "rehearse/core/names.hpp"
@@ -29,7 +28,7 @@ class SlopeTape {
     for (const std::string& name : of.states) formulas.input(name, Pace::always);
     expression::TapeBuilder& builder = formulas.builder();
     std::vector<std::pair<Node, Node>> trigonometry;
-    limits_.assign(of.states.size(), std::numeric_limits<double>::infinity());
+    limits_.assign(of.states.size(), kInf);
     for (Index i = 0; i < states_; ++i) {
       const std::string& name = of.states[static_cast<std::size_t>(i)];
       if (!is_among(name, of.angles)) continue;
@@ -122,7 +121,7 @@ class SlopeTape {
       }
     }
     for (Index k = 0; k < X.rows(); ++k)
-      if (failed[k]) dX.row(k).setConstant(std::numeric_limits<double>::quiet_NaN());
+      if (failed[k]) dX.row(k).setConstant(kNaN);
   }
 
   Index states_, actions_, parameters_;

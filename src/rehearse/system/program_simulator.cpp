@@ -1,7 +1,6 @@
 #include "rehearse/system/program_simulator.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -52,7 +51,7 @@ class FiniteRows {
   bool all(Index rows) const { return static_cast<Index>(rows_.size()) == rows; }
   Matrix of(const ConstMatrixView& rows) const { return rows(rows_, Eigen::all); }
   void scatter(const Matrix& dX, MatrixView all) const {
-    all.setConstant(std::numeric_limits<double>::quiet_NaN());
+    all.setConstant(kNaN);
     all(rows_, Eigen::all) = dX;
   }
 

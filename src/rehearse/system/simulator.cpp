@@ -1,7 +1,6 @@
 #include "rehearse/system/simulator.hpp"
 
 #include <cmath>
-#include <limits>
 #include <new>
 
 #include <fmt/format.h>
@@ -35,7 +34,7 @@ std::string change_row(const Simulator& simulator, const ConstMatrixView& x, con
     why = error.what();
   } catch (...) {
   }
-  dx.setConstant(std::numeric_limits<double>::quiet_NaN());
+  dx.setConstant(kNaN);
   return why;
 }
 
@@ -91,7 +90,7 @@ Index change_contained(const Simulator& simulator, const ConstMatrixView& X, con
     std::string why;
     if (one_by_one) why = change_row(simulator, X.middleRows(i, 1), U.middleRows(i, 1), phi, dX.middleRows(i, 1));
     if (is_usable(dX, i)) continue;
-    dX.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    dX.row(i).setConstant(kNaN);
     ++failed;
     if (fault) fault->add(X.row(i).transpose(), U.row(i).transpose(), why);
   }

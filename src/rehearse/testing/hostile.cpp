@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 
 namespace rehearse::testing {
@@ -34,7 +33,7 @@ class Hostile final : public system::Simulator {
     for (Index row = 0; row < X.rows(); ++row) {
       if (hash(X, U, row) >= fraction_) continue;
       if (harm_ == Harm::exception) throw std::runtime_error("a row that cannot be simulated");
-      dX.row(row).setConstant(harm_ == Harm::nan ? std::numeric_limits<double>::quiet_NaN() : 1e300);
+      dX.row(row).setConstant(harm_ == Harm::nan ? kNaN : 1e300);
     }
   }
 

@@ -1,7 +1,5 @@
 #include "rehearse/campaign/results.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "line_campaign.hpp"
@@ -23,7 +21,7 @@ TEST(RunOutcome, IsReadFromATableUpToThePlannedTrials) {
   EXPECT_EQ(all.state, RunState::unfinished);
   EXPECT_EQ(all.done(), 3);
   EXPECT_EQ(all.interaction_s, (std::vector<double>{1.2, 2.4, 3.6}));
-  EXPECT_EQ(all.returns[1], -std::numeric_limits<double>::infinity()) << "there is none";
+  EXPECT_EQ(all.returns[1], -kInf) << "there is none";
   EXPECT_EQ(all.solved, (std::vector<std::optional<bool>>{false, std::nullopt, true}));
   EXPECT_EQ(all.first_success(3), 3);
   EXPECT_EQ(all.first_success(2), std::nullopt);

@@ -1,13 +1,11 @@
 #include "rehearse/check/differences.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 namespace rehearse::check {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNone = kNaN;
 
 Task task_of(const std::vector<std::string>& states) {
   Task task;
@@ -20,7 +18,7 @@ Task task_of(const std::vector<std::string>& states) {
 
 TEST(Differences, NoPredictionIsInfinitelyFarFromOne) {
   const Matrix one{{1, kNone}, {kNone, 4}}, other{{1.5, kNone}, {3, 4}};
-  EXPECT_EQ(apart(one, other), (Matrix{{0.5, 0}, {std::numeric_limits<double>::infinity(), 0}}));
+  EXPECT_EQ(apart(one, other), (Matrix{{0.5, 0}, {kInf, 0}}));
 }
 
 TEST(Differences, RoundingGrowsWithStatesAndChanges) {

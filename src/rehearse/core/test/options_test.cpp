@@ -1,7 +1,6 @@
 #include "rehearse/core/options.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -212,7 +211,7 @@ TEST(Options, ViolationsAreAllReported) {
   Outer options;
   EXPECT_TRUE(field_violations(fields_of(options)).empty());
   options.width = -1;
-  options.share = std::numeric_limits<double>::quiet_NaN();
+  options.share = kNaN;
   options.cmaes.population = 3;
   const std::vector<std::string> expected = {"width = -1, must be > 0", "share = nan, must be between 0 and 1",
                                              "cmaes.population = 3, must be ≥ 4"};

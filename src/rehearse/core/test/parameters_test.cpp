@@ -1,7 +1,5 @@
 #include "rehearse/core/parameters.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
@@ -63,8 +61,7 @@ TEST(ParameterSpace, ValuesStayInTheirBoxOrSet) {
   EXPECT_EQ(s.values(), (Vector{{1.6, 1, 6}}));
   EXPECT_EQ(message_of<InvalidInput>([&] { s.set_value("mass", 2); }), "mass = 2, must be between 0.1 and 1");
   EXPECT_EQ(message_of<InvalidInput>([&] { s.set_value("legs", 3); }), "legs = 3, must be one of 2, 4, 6");
-  EXPECT_EQ(message_of<InvalidInput>([&] { s.set_value("mass", std::numeric_limits<double>::quiet_NaN()); }),
-            "mass = nan, must be finite");
+  EXPECT_EQ(message_of<InvalidInput>([&] { s.set_value("mass", kNaN); }), "mass = nan, must be finite");
   EXPECT_EQ(message_of<InvalidInput>([&] { s.set_value("mas", 1); }),
             "unknown parameter 'mas', did you mean 'mass'? (known: gravity, mass, legs)");
   EXPECT_EQ(s.values(), (Vector{{1.6, 1, 6}})) << "what is refused changes nothing";

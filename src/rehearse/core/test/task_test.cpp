@@ -1,6 +1,5 @@
 #include "rehearse/core/task.hpp"
 
-#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -56,8 +55,7 @@ TEST(Task, EachViolationIsNamed) {
   EXPECT_EQ(after([](Task& t) { t.horizon = 0; }), Lines{"horizon = 0, must be ≥ 1"});
   EXPECT_EQ(after([](Task& t) { t.dt_s = -1; }), Lines{"dt_s = -1, must be > 0"});
   EXPECT_EQ(after([](Task& t) { t.reward = {}; }), Lines{"task has no reward"});
-  EXPECT_EQ(after([](Task& t) { t.reward_floor = -std::numeric_limits<double>::infinity(); }),
-            Lines{"reward_floor = -inf, must be finite"});
+  EXPECT_EQ(after([](Task& t) { t.reward_floor = -kInf; }), Lines{"reward_floor = -inf, must be finite"});
   EXPECT_EQ(after([](Task& t) {
               t.actions[0].bounds = {1, 1};
             }),

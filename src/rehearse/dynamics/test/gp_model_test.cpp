@@ -1,7 +1,5 @@
 #include "rehearse/dynamics/gp_model.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "rehearse/dynamics/residuals.hpp"
@@ -159,9 +157,9 @@ TEST(GpModel, FailedRowsAreNanAndDisturbNoOther) {
   const GpModel model(swing::features(), {}, Mean{prior, swing::kTruth}, posterior(data, data.changes),
                       PredictedVariance::latent);
   const Prediction clean = predict(model, at.states, at.actions);
-  at.states(7, 0) = std::numeric_limits<double>::quiet_NaN();
+  at.states(7, 0) = kNaN;
   at.states(150, 0) = 1e300;
-  at.states(151, 1) = std::numeric_limits<double>::infinity();
+  at.states(151, 1) = kInf;
   const Prediction spoilt = predict(model, at.states, at.actions);
   for (Index i = 0; i < 200; ++i) {
     if (i == 7 || i == 150 || i == 151) {

@@ -1,7 +1,5 @@
 #include "rehearse/dynamics/residuals.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "rehearse/dynamics/gp_model.hpp"
@@ -79,7 +77,7 @@ TEST(Residuals, RowsThatFailAreLeftOut) {
   const Dataset data = swing::data(20, 1);
   const auto fails = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
     swing::ode(x, u, phi, dxdt);
-    if (u(0) > 0) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+    if (u(0) > 0) dxdt(0) = kNaN;
   };
   const prior::Prior prior = swing::prior({swing::length(), swing::friction()}, fails);
   const Residuals::Rows rows = Residuals(data, swing::features()).at(&prior, swing::kTruth);

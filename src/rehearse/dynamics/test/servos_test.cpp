@@ -1,7 +1,6 @@
 #include "rehearse/dynamics/servos.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -115,7 +114,7 @@ TEST(Servos, OfManyRowsSomeAreEnough) {
 TEST(Servos, ARowThatIsNotFiniteIsNaNAlone) {
   const Servos servos = servos_of(steps(30, 1));
   Dataset held_out = steps(3, 2);
-  held_out.states(1, 0) = std::numeric_limits<double>::quiet_NaN();
+  held_out.states(1, 0) = kNaN;
   Servos::End end;
   servos.predict(held_out.states, held_out.actions, end);
   EXPECT_TRUE(std::isnan(end.positions(1, 0)));

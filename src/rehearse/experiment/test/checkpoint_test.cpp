@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +20,7 @@ History history_of_one() {
                             .cut_short = true,
                             .limits = {{"track", 0.05, 0.1, {0.01, 0.2}, true}, {.limit = "speed", .allowed = 0.5}},
                             .rollouts = 5,
-                            .log_evidence = -std::numeric_limits<double>::infinity(),
+                            .log_evidence = -kInf,
                             .phi = {1.0 / 3, std::nan("")},
                             .phi_intervals = {Interval{0.1, 1.0 / 3}, std::nullopt},
                             .warnings = {"b is not determined"},

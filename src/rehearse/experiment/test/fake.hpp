@@ -5,7 +5,6 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -141,7 +140,7 @@ struct Killer {
   }
 };
 
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kUnknown = kNaN;
 
 /// Its next policy depends on everything that it has seen and proposed, by way of what it saves.
 class EchoLearner final : public learners::Learner {
@@ -173,7 +172,7 @@ class EchoLearner final : public learners::Learner {
   }
   nlohmann::json save() const override {
     killer_.pass(Killer::Place::save, told_);
-    return {{"memory", memory_}, {"evidence", -std::numeric_limits<double>::infinity()}};
+    return {{"memory", memory_}, {"evidence", -kInf}};
   }
   void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override {
     told_ = static_cast<Index>(episodes.size());

@@ -1,7 +1,5 @@
 #include "rehearse/gp/bounds.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "naive.hpp"
@@ -77,7 +75,7 @@ TEST(SoftBounds, StartsOutsideAreMovedInside) {
 
 TEST(SoftBounds, AScaleOfZeroCountsAsOne) {
   const Vector u = Vector::Zero(5);
-  for (const double scale : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+  for (const double scale : {0.0, -1.0, kNaN})
     EXPECT_EQ(SoftBounds({}, kInputs, scale).flat(u), SoftBounds({}, kInputs, 1).flat(u));
 }
 

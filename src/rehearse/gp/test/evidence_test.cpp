@@ -1,6 +1,5 @@
 #include "rehearse/gp/evidence.hpp"
 
-#include <limits>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -142,7 +141,7 @@ TEST(Whitening, GivesTheEvidenceOfAnyTargets) {
     }
   }
   Hyperparameters impossible = naive::hyperparameters(3, 1, 1, 0.1);
-  impossible.log_lengths(1) = std::numeric_limits<double>::quiet_NaN();
+  impossible.log_lengths(1) = kNaN;
   EXPECT_TRUE(std::isnan(Whitening(Inputs(naive::normals(5, 3, 15)), impossible).log_evidence(Vector::Zero(5))));
 }
 
@@ -161,11 +160,10 @@ TEST(Evidence, DoesNotDependOnTheUnits) {
 
 TEST(Evidence, WhatCannotBeComputedIsNaNAndNothingCrashes) {
   const Inputs inputs(naive::normals(10, 2, 8));
-  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   const Vector y = naive::normals(10, 1, 9);
   Workspace workspace;
   Vector gradient;
-  for (const double bad : {nan, inf, -inf, 1e6, -1e6}) {
+  for (const double bad : {kNaN, kInf, -kInf, 1e6, -1e6}) {
     for (Index k = 0; k < 4; ++k) {
       Vector flat = Vector::Zero(4);
       flat(k) = bad;

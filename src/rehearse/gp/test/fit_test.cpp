@@ -1,7 +1,6 @@
 #include "rehearse/gp/fit.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -159,7 +158,7 @@ TEST(Fit, WarmStartIsNeverMadeWorse) {
 TEST(Fit, PerfectPriorsHaveFiniteEvidence) {
   const Inputs inputs(naive::normals(50, 3, 5));
   for (const FitMethod method : kMethods) {
-    double previous = std::numeric_limits<double>::infinity();
+    double previous = kInf;
     for (const double residual : {0.0, 1e-14, 1e-9, 1e-6, 1e-3, 1.0}) {
       const Vector y = residual * naive::normals(50, 1, 6);
       const Fit result = fit(inputs, y, 1, default_start(inputs, y, 1), with(method));
@@ -209,7 +208,7 @@ TEST(Fit, FailureIsAStatusAndKeepsTheStart) {
   const Inputs inputs(naive::normals(10, 2, 11));
   const Hyperparameters start = naive::hyperparameters(2, 1, 1, 0.1);
   Vector y = naive::normals(10, 1, 12);
-  y(0) = std::numeric_limits<double>::quiet_NaN();
+  y(0) = kNaN;
   for (const FitMethod method : kMethods) {
     const Fit result = fit(inputs, y, 1, start, with(method));
     EXPECT_EQ(result.status, Fit::Status::failed);

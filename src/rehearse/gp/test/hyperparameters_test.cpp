@@ -1,7 +1,5 @@
 #include "rehearse/gp/hyperparameters.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
@@ -33,8 +31,8 @@ TEST(Hyperparameters, AreOfTheSizesThatThereAre) {
 TEST(Hyperparameters, EveryViolationIsNamed) {
   Hyperparameters theta{.log_lengths = Vector::Zero(2), .log_signal = 0, .log_noise = 0};
   EXPECT_TRUE(violations(theta, 2, "gp").empty());
-  theta.log_lengths(1) = std::numeric_limits<double>::infinity();
-  theta.log_noise = std::numeric_limits<double>::quiet_NaN();
+  theta.log_lengths(1) = kInf;
+  theta.log_noise = kNaN;
   const auto lines = violations(theta, 3, "gp");
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0], "gp.log_lengths has 2 values, must be 3");

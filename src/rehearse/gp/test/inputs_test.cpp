@@ -1,7 +1,5 @@
 #include "rehearse/gp/inputs.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
@@ -41,7 +39,7 @@ TEST(Inputs, OneRowIsEnoughAndNoRowIsNot) {
 
 TEST(Inputs, NamesWhatIsNotFinite) {
   Matrix X = Matrix::Zero(2, 2);
-  X(1, 0) = std::numeric_limits<double>::quiet_NaN();
+  X(1, 0) = kNaN;
   try {
     Inputs{X};
     FAIL();

@@ -1,7 +1,6 @@
 #include "rehearse/gp/odd.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -58,7 +57,7 @@ TEST(Odd, CovarianceAndEvidenceAreTheBooks) {
 }
 
 TEST(Odd, WhatCannotBeComputedIsNaN) {
-  const Vector y{{std::numeric_limits<double>::quiet_NaN()}};
+  const Vector y{{kNaN}};
   EXPECT_FALSE(odd_evidence(Inputs(inputs(1, 1)), kOddSigns, y, thetas(false)[0]).ok());
 }
 
@@ -111,8 +110,7 @@ TEST(Odd, NothingIsKnownFarAwayAndRowsStayAlone) {
   const Matrix X = inputs(50, 3);
   const std::vector<Hyperparameters> all = thetas(false);
   const Posterior posterior(Inputs(X), targets(X, all), all, 0.01, kOddSigns);
-  const double inf = std::numeric_limits<double>::infinity();
-  const Matrix F{{1e6, 0, 0}, {inf, 0, -inf}, {1e308, 1, 1}, {kNaN, 0, 0}, {0, 1, 0}};
+  const Matrix F{{1e6, 0, 0}, {kInf, 0, -kInf}, {1e308, 1, 1}, {kNaN, 0, 0}, {0, 1, 0}};
   const Prediction p = predict(posterior, F);
   for (Index e = 0; e < 2; ++e) {
     for (Index i = 0; i < 3; ++i) {

@@ -1,7 +1,6 @@
 #include "rehearse/gp/posterior.hpp"
 
 #include <cmath>
-#include <limits>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -182,7 +181,7 @@ TEST(Posterior, MissingRowsStayAlone) {
   const Posterior posterior = make(70, 4, 0.01);
   Matrix F = naive::normals(130, 4, 12);
   const Prediction clean = predict(posterior, F);
-  F(7, 2) = F(129, 0) = std::numeric_limits<double>::quiet_NaN();
+  F(7, 2) = F(129, 0) = kNaN;
   const Prediction p = predict(posterior, F);
   Matrix means(130, 3);
   posterior.predict_mean(F, means);
@@ -200,8 +199,7 @@ TEST(Posterior, MissingRowsStayAlone) {
 TEST(Posterior, FarFromTheDataIsThePrior) {
   const Posterior posterior = make(30, 2);
   Matrix F(4, 2);
-  const double inf = std::numeric_limits<double>::infinity();
-  F << 1e6, 0, 1e308, -1e308, inf, 0, -inf, inf;
+  F << 1e6, 0, 1e308, -1e308, kInf, 0, -kInf, kInf;
   const Prediction p = predict(posterior, F);
   for (Index i = 0; i < 4; ++i) {
     EXPECT_EQ(p.mean.row(i), Matrix(Matrix::Zero(1, 3)));

@@ -1,7 +1,5 @@
 #include "rehearse/gp/prediction_kernel.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "naive.hpp"
@@ -118,7 +116,7 @@ TEST(PredictionKernel, CorrelationsAreExactToTheLastDigits) {
 TEST(PredictionKernel, FarPointsHaveNoCorrelationRatherThanASubnormalOne) {
   const double origin = 0, one = 1;
   Vector queries = Vector::Zero(kChunk), means(kChunk);
-  queries.head(4) << 12, 13, 1e200, std::numeric_limits<double>::infinity();
+  queries.head(4) << 12, 13, 1e200, kInf;
   correlate({&origin}, 1, 1, &one, {queries.data()}, 4, nullptr, means.data());
   EXPECT_DOUBLE_EQ(means(0), std::exp(-72));
   EXPECT_EQ(means.segment(1, 3), Vector(Vector::Zero(3)));

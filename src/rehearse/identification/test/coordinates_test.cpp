@@ -1,7 +1,6 @@
 #include "rehearse/identification/coordinates.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -52,9 +51,7 @@ TEST(PreciseSlopes, SayWhatTheyDoNotResolve) {
 }
 
 TEST(PreciseSlopes, WherePointsFailAreThoseOfFirstOrder) {
-  const auto fails = [](const Vector& z) {
-    return z(0) > 0.3005 ? Matrix::Constant(1, 2, std::numeric_limits<double>::quiet_NaN()) : wave(z);
-  };
+  const auto fails = [](const Vector& z) { return z(0) > 0.3005 ? Matrix::Constant(1, 2, kNaN) : wave(z); };
   const Vector z{{0.3, 0.6}};
   EXPECT_EQ(precise_slopes(fails, z, wave(z)).values[0], slopes(fails, z, wave(z))[0]);
 }

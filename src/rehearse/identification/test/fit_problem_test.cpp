@@ -1,7 +1,6 @@
 #include "rehearse/identification/fit_problem.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -60,7 +59,7 @@ TEST(FitProblem, AStateThatChangesEvenlyDoesNotRewardFailures) {
   const auto clock = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
     swing::ode(x, u, phi, dxdt);
     dxdt(1) = 1;
-    if (phi(0) < 1 && x(0) > 0) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+    if (phi(0) < 1 && x(0) > 0) dxdt(0) = kNaN;
   };
   const prior::Prior prior = swing::prior({Parameter::discrete("length", 0.5, {0.5, 1.2}), swing::friction()}, clock);
   const Learned learned = learn_swing(data, GpMi{}, &prior);
@@ -72,7 +71,7 @@ TEST(FitProblem, AStateThatChangesEvenlyDoesNotRewardFailures) {
 TEST(FitProblem, AParameterDoesNotWinByFailingWhereItIsWrong) {
   const auto fragile = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
     swing::ode(x, u, phi, dxdt);
-    if (phi(0) < 1 && std::abs(std::sin(x(1))) > 0.4) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+    if (phi(0) < 1 && std::abs(std::sin(x(1))) > 0.4) dxdt(0) = kNaN;
   };
   const prior::Prior prior = swing::prior({Parameter::discrete("length", 0.5, {0.5, 1.2}), swing::friction()}, fragile);
   for (const Kind& kind : {Kind(GpMi{}), Kind(Mi{})}) {

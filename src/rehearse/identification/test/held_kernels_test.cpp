@@ -1,7 +1,6 @@
 #include "rehearse/identification/held_kernels.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -80,15 +79,14 @@ TEST_F(HeldKernelsTest, ClimbsAPriorThatIsNotSmooth) {
 }
 
 TEST_F(HeldKernelsTest, KernelsThatWereNeverFittedHaveNoScore) {
-  EXPECT_EQ(held_score(problem(Score::product), unfitted(Vector{{0.9, 0.2}}, 2, {})),
-            -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(held_score(problem(Score::product), unfitted(Vector{{0.9, 0.2}}, 2, {})), -kInf);
 }
 
 TEST_F(HeldKernelsTest, AStepToWhereRowsFailIsNotMade) {
   prior = swing::prior({swing::length(), swing::friction()},
                        [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
                          swing::ode(x, u, phi, dxdt);
-                         if (phi(0) < 0.85) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+                         if (phi(0) < 0.85) dxdt(0) = kNaN;
                        });
   const FitProblem at = problem(Score::product);
   Fit found = fitted(at, Vector{{1.2, 0.2}});

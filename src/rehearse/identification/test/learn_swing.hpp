@@ -1,7 +1,6 @@
 #pragma once
 // Models of the swing, learned as `learn` does.
 
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -29,7 +28,7 @@ inline prior::Prior failing_above(double limit, std::vector<Parameter> parameter
   return swing::prior(std::move(parameters),
                       [limit](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
                         swing::ode(x, u, phi, dxdt);
-                        if (x(1) > limit) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+                        if (x(1) > limit) dxdt(0) = kNaN;
                       });
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -166,8 +165,8 @@ TEST(LearnedReward, LeavesOutWhatIsNotFiniteAndSaysSo) {
                                                             data.changes.topRows(58), Vector(data.rewards.head(58))})
                                          .reward,
                                      data);
-  data.rewards(58) = std::numeric_limits<double>::quiet_NaN();
-  data.rewards(59) = std::numeric_limits<double>::infinity();
+  data.rewards(58) = kNaN;
+  data.rewards(59) = kInf;
   const LearnedReward learned = learn_cartpole_reward(data);
   EXPECT_EQ(rewards_of(learned.reward, data), expected);
   ASSERT_EQ(learned.notes.size(), 1u);

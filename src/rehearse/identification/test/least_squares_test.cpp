@@ -1,7 +1,6 @@
 #include "rehearse/identification/least_squares.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -73,15 +72,14 @@ TEST(LeastSquares, SearchesPriorsThatAreNotSmooth) {
 TEST(LeastSquares, RowsThatFailAreCharged) {
   const auto fragile = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
     swing::ode(x, u, phi, dxdt);
-    if (phi(0) < 0.75 && std::abs(std::sin(x(1))) > 0.4) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+    if (phi(0) < 0.75 && std::abs(std::sin(x(1))) > 0.4) dxdt(0) = kNaN;
   };
   const prior::Prior prior = swing::prior({swing::length(), swing::friction()}, fragile);
   const Identified survived = found(swing::data(60, 1), prior);  // starts at 0.5, where most rows fail
   EXPECT_LT((survived.phi - swing::kTruth).norm(), 1e-8);
   const prior::Prior always =
-      swing::prior({swing::length(), swing::friction()}, [](const Vector&, const Vector&, const Vector&, Vector& dxdt) {
-        dxdt.setConstant(std::numeric_limits<double>::quiet_NaN());
-      });
+      swing::prior({swing::length(), swing::friction()},
+                   [](const Vector&, const Vector&, const Vector&, Vector& dxdt) { dxdt.setConstant(kNaN); });
   EXPECT_EQ(found(swing::data(10, 1), always).phi, always.space.values());
 }
 
@@ -89,7 +87,7 @@ TEST(LeastSquares, APhiAtWhichAllRowsFailIsNoneHoweverWrongThePriorIs) {
   const prior::Prior biased = swing::prior({swing::length(), swing::friction()},
                                            [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
                                              swing::ode(x, u, phi, dxdt);
-                                             dxdt(0) += phi(0) > 1.2 ? std::numeric_limits<double>::quiet_NaN() : 1000;
+                                             dxdt(0) += phi(0) > 1.2 ? kNaN : 1000;
                                            });
   for (const Index rows : {1, 25})
     for (const LeastSquares& options : {LeastSquares{}, kPublished})

@@ -1,7 +1,6 @@
 #include "rehearse/identification/parameter_search.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -54,7 +53,7 @@ TEST(Identify, EachCombinationHasItsOwnContinuousOptimum) {
 
 TEST(Identify, StartsWhereItIsTold) {
   const ParameterSpace space({Parameter::continuous("a", 0, {-1, 1})});
-  double first = std::numeric_limits<double>::quiet_NaN();
+  double first = kNaN;
   const auto score = [&](const Vector& phi) {
     if (std::isnan(first)) first = phi(0);
     return away_from(phi, Vector{{0.5}});
@@ -73,11 +72,9 @@ TEST(Identify, NoTunableParameterIsOneEvaluation) {
 
 TEST(Identify, SurvivesScoresThatAreNotFinite) {
   const ParameterSpace space({Parameter::continuous("a", 0, {-1, 1})});
-  const auto score = [](const Vector& phi) {
-    return phi(0) > 0.3 ? std::numeric_limits<double>::quiet_NaN() : away_from(phi, Vector{{0.25}});
-  };
+  const auto score = [](const Vector& phi) { return phi(0) > 0.3 ? kNaN : away_from(phi, Vector{{0.25}}); };
   EXPECT_NEAR(identify(space, {}, score, kExact).phi(0), 0.25, 1e-3);
-  const auto never = [](const Vector&) { return -std::numeric_limits<double>::infinity(); };
+  const auto never = [](const Vector&) { return -kInf; };
   EXPECT_EQ(identify(space, Vector{{0.7}}, never, {}).phi, (Vector{{0.7}})) << "nothing is better than the start";
 }
 

@@ -1,10 +1,8 @@
 #include "rehearse/learners/black_drops/known_policies.hpp"
 
-#include <limits>
-
 namespace rehearse::learners::black_drops {
 
-constexpr double kIncomparable = -std::numeric_limits<double>::infinity();
+constexpr double kIncomparable = -kInf;
 
 void History::earn(const Episode& episode, Index horizon) {
   returns.push_back(episode.is_cut_short(horizon) ? kIncomparable : episode.total_reward());

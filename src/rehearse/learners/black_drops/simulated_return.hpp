@@ -2,7 +2,6 @@
 // The objective of a policy search, from simulated episodes.
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "rehearse/learners/black_drops/search_problem.hpp"
@@ -50,7 +49,7 @@ class SimulatedReturn {
   StreamKey key_;
   std::uint64_t next_ = 0;
   Index rollouts_ = 0, failed_ = 0;
-  Interval seen_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};  // mean returns
+  Interval seen_{kInf, -kInf};  // mean returns
 };
 
 }  // namespace rehearse::learners::black_drops

@@ -1,7 +1,6 @@
 #include "rehearse/learners/ite/illumination.hpp"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -38,7 +37,7 @@ class Rollouts {
     thread_local Episode episode;
     rollout::simulate_episodes({model_, policy_, task_, {}, {.sample = false}}, X, {}, episodes, evaluator_);
     for (Index i = 0; i < X.rows(); ++i) {
-      performances(i) = std::numeric_limits<double>::quiet_NaN();
+      performances(i) = kNaN;
       if (episodes.failed[static_cast<std::size_t>(i)]) continue;
       episodes.copy(i, episode);
       const Vector descriptor = task_.descriptor(episode);

@@ -14,8 +14,7 @@ namespace {
 nlohmann::json through_bytes(const nlohmann::json& j) { return nlohmann::json::from_cbor(nlohmann::json::to_cbor(j)); }
 
 TEST(Json, NumbersComeBackFromBytesToTheBit) {
-  const double inf = std::numeric_limits<double>::infinity();
-  const Matrix m{{0.1 + 0.2, -0.0, inf}, {1e-320, std::numeric_limits<double>::max(), -inf}};
+  const Matrix m{{0.1 + 0.2, -0.0, kInf}, {1e-320, std::numeric_limits<double>::max(), -kInf}};
   const Matrix back = to_matrix(through_bytes(to_json(m)));
   EXPECT_EQ(back, m);
   EXPECT_TRUE(std::signbit(back(0, 1)));

@@ -46,22 +46,22 @@ TEST(Hold, IsNotThereWhereTheActionsAreTooWeak) {
 }
 
 TEST(CheapestHold, IsTheBestOfThoseThatAreThere) {
-  const Task task = upright::task(0.5, 0);  // too weak to stay where gravity pulls most
   const upright::Model model;
-  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-3});
-  const Problem problem{model, task, serial_evaluator()};
-  const auto from = [&](const Matrix& states) {
-    return find_cheapest_hold(problem, costs, states, Matrix::Zero(states.rows(), 1), 0);
+  const auto from = [&](const Task& task, const Matrix& states) {
+    const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-3});
+    return find_cheapest_hold({model, task, serial_evaluator()}, costs, states, Matrix::Zero(states.rows(), 1), 0);
   };
-  const Matrix hanging{{3.1, 0}}, upright{{0.2, 0.5}}, too_far{{1.5, 0}};
-  Matrix all(3, 2);
-  all << too_far, hanging, upright;
-  const auto best = from(all), alone = from(upright), worse = from(hanging);
-  ASSERT_TRUE(best && alone && worse);
-  EXPECT_EQ(best->stage.state, alone->stage.state);
-  EXPECT_GT(std::abs(worse->stage.state(0)), 2);
-  EXPECT_FALSE(from(too_far));
-  EXPECT_FALSE(from(Matrix(0, 2)));
+  const Task task = upright::task(2, 0);
+  const auto hanging = from(task, Matrix{{3.1, 0}});
+  ASSERT_TRUE(hanging);
+  EXPECT_GT(std::abs(hanging->stage.state(0)), 2);
+  for (const Matrix& both : {Matrix{{3.1, 0}, {0.2, 0.5}}, Matrix{{0.2, 0.5}, {3.1, 0}}}) {
+    const auto best = from(task, both);
+    ASSERT_TRUE(best);
+    EXPECT_NEAR(best->stage.state.norm(), 0, 1e-5);
+  }
+  EXPECT_FALSE(from(task, Matrix(0, 2)));
+  EXPECT_FALSE(from(upright::task(0.1, 1.2), Matrix{{1.2, 0}})) << "the actions are too weak";
 }
 
 TEST(Hold, KnowsItsActionBeforeAndTheTime) {

@@ -1,7 +1,6 @@
 #include "rehearse/moments/moment_matching.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -175,10 +174,9 @@ TEST(MomentMatching, IsTheSameForAnyNumberOfThreads) {
 
 TEST(MomentMatching, SaysWhatIsNoGaussian) {
   const MomentMatching matching(mixture(3), 2);
-  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   MomentTape tape;
   Transformed result;
-  for (const double bad : {nan, inf, -inf}) {
+  for (const double bad : {kNaN, kInf, -kInf}) {
     Gaussian x = tools::random_gaussian(3, 1, 61);
     x.mean(1) = bad;
     EXPECT_FALSE(matching.forward(x, tape, result));

@@ -39,9 +39,7 @@ TEST(PriorMoments, DifferentiatesAllStepsInOneCall) {
 }
 
 TEST(PriorMoments, HaveNoneWhereThePriorFailsBesideTheMean) {
-  const auto edge = [](const Vector& x) {
-    return Vector{{x(0) > 0.0001 ? std::numeric_limits<double>::quiet_NaN() : 0, 0, 0}};
-  };
+  const auto edge = [](const Vector& x) { return Vector{{x(0) > 0.0001 ? kNaN : 0, 0, 0}}; };
   for (const Through through : {Through::linearised, Through::unscented}) {
     const auto prior = priors::moments(edge, through);
     PriorTape tape;
@@ -50,7 +48,7 @@ TEST(PriorMoments, HaveNoneWhereThePriorFailsBesideTheMean) {
     EXPECT_FALSE(prior->forward(x, tape, change));
     x.mean(0) = -1;
     EXPECT_TRUE(prior->forward(x, tape, change));
-    x.mean(1) = std::numeric_limits<double>::infinity();
+    x.mean(1) = kInf;
     EXPECT_FALSE(prior->forward(x, tape, change));
   }
 }

@@ -30,7 +30,7 @@ TEST(Bfgs, LearnsTheCurvatureAndProfitsFromIt) {
 TEST(Bfgs, WrongCurvatureIsNoHarm) {
   for (Matrix wrong :
        {Matrix(-Matrix::Identity(2, 2)), Matrix(1e8 * Matrix::Identity(2, 2)), Matrix(1e-8 * Matrix::Identity(2, 2)),
-        Matrix(Matrix::Identity(3, 3)), Matrix(Matrix::Constant(2, 2, std::numeric_limits<double>::quiet_NaN()))}) {
+        Matrix(Matrix::Identity(3, 3)), Matrix(Matrix::Constant(2, 2, kNaN))}) {
     const GradientResult result =
         maximise_bfgs(test::rosenbrock, Vector{{-1.2, 1}}, {.relative_tolerance = 1e-12}, &wrong);
     EXPECT_LT((result.x - Vector::Ones(2)).norm(), 1e-4) << wrong;

@@ -2,7 +2,6 @@
 // Functions to maximise, with their gradients.
 
 #include <cmath>
-#include <limits>
 
 #include "rehearse/core/types.hpp"
 
@@ -27,7 +26,7 @@ inline double rosenbrock(const Vector& x, Vector& gradient) {  // maximum 0 at (
 
 inline double log_barrier(const Vector& x, Vector& gradient) {  // ln x − x, not finite below 0; maximum −1 at 1
   gradient = Vector{{1 / x(0) - 1}};
-  return x(0) > 0 ? std::log(x(0)) - x(0) : std::numeric_limits<double>::quiet_NaN();
+  return x(0) > 0 ? std::log(x(0)) - x(0) : kNaN;
 }
 
 }  // namespace rehearse::optim::test

@@ -71,7 +71,7 @@ TEST(MinimiseSquares, StepsToWhereThereIsNoValueAreNotMade) {
   EXPECT_NEAR(minimise_squares(half, Vector{{4}}).x(0), 0.01, 1e-9);
   const SquaresResult none = minimise_squares(half, Vector{{-1}});
   EXPECT_EQ(none.x(0), -1);
-  EXPECT_EQ(none.value, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(none.value, kInf);
   EXPECT_FALSE(none.converged);
 }
 

@@ -140,7 +140,7 @@ inline Matrix from_bytes(const std::string& bytes, Index columns) {
 
 /// The largest difference of actions, as a part of half their range.
 inline double apart(const Exported& exported, const Matrix& actions) {
-  if (actions.rows() != exported.answers.actions.rows()) return std::numeric_limits<double>::infinity();
+  if (actions.rows() != exported.answers.actions.rows()) return kInf;
   double largest = 0;
   for (Index a = 0; a < actions.cols(); ++a) {
     const auto& [low, high] = exported.actions[static_cast<std::size_t>(a)].bounds;

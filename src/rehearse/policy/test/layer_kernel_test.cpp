@@ -1,7 +1,6 @@
 #include "rehearse/policy/layer_kernel.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -47,7 +46,7 @@ TEST(Layer, NanStaysInItsRow) {
   layer(W.data(), 11, X.data(), 11, 3, clean.data(), 11, 1, 11, true);
   for (Index bad = 0; bad < 11; ++bad) {
     Matrix Y = X;
-    Y(bad, 1) = std::numeric_limits<double>::quiet_NaN();
+    Y(bad, 1) = kNaN;
     layer(W.data(), 11, Y.data(), 11, 3, spoilt.data(), 11, 1, 11, true);
     for (Index r = 0; r < 11; ++r) EXPECT_TRUE(r == bad ? std::isnan(spoilt(r, 0)) : spoilt(r, 0) == clean(r, 0));
   }

@@ -1,7 +1,6 @@
 #include "rehearse/policy/squash.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -32,14 +31,13 @@ TEST(Squash, AsASineIsThatOfPilco) {
 }
 
 TEST(Squash, InfinitiesEndAtTheBoundsAndNanStays) {
-  const double inf = std::numeric_limits<double>::infinity();
-  Matrix a{{inf}, {-inf}, {1e300}, {std::numeric_limits<double>::quiet_NaN()}};
+  Matrix a{{kInf}, {-kInf}, {1e300}, {kNaN}};
   Squash{{{-2, 4}}, 1}.apply(a);
   EXPECT_EQ(a(0, 0), 4);
   EXPECT_EQ(a(1, 0), -2);
   EXPECT_EQ(a(2, 0), 4);
   EXPECT_TRUE(std::isnan(a(3, 0)));
-  a = Matrix{{inf}, {-inf}, {1e300}, {std::numeric_limits<double>::quiet_NaN()}};
+  a = Matrix{{kInf}, {-kInf}, {1e300}, {kNaN}};
   Squash{{{-2, 4}}, 1, Squash::Shape::sine}.apply(a);
   for (Index i = 0; i < 3; ++i) EXPECT_TRUE(-2 <= a(i, 0) && a(i, 0) <= 4) << a(i, 0);
   EXPECT_TRUE(std::isnan(a(3, 0)));

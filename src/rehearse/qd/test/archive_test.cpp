@@ -1,7 +1,6 @@
 #include "rehearse/qd/archive.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -36,9 +35,8 @@ TEST(Archive, KeepsTheBestOfEachNiche) {
 
 TEST(Archive, NeverKeepsWhatHasNoNicheOrNoValue) {
   Archive archive = four_boxes();
-  const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(add(archive, -1, 1, 0));
-  for (const double bad : {std::nan(""), infinity, -infinity}) EXPECT_FALSE(add(archive, 0, bad, 0));
+  for (const double bad : {std::nan(""), kInf, -kInf}) EXPECT_FALSE(add(archive, 0, bad, 0));
   EXPECT_EQ(archive.size(), 0);
 }
 
@@ -52,7 +50,7 @@ TEST(Archive, ReadsSolutionsThatAreRows) {
 TEST(Archive, CountsFromTheFloor) {
   Archive archive = four_boxes();
   EXPECT_EQ(archive.statistics(-10).qd_score, 0);
-  EXPECT_EQ(archive.statistics().best, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(archive.statistics().best, -kInf);
   EXPECT_TRUE(std::isnan(archive.statistics().mean));
   add(archive, 3, -4, 0);
   add(archive, 1, 2, 0);

@@ -1,7 +1,6 @@
 #include "rehearse/qd/map_elites.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -109,7 +108,7 @@ TEST(MapElites, CountsFailuresAndKeepsNone) {
     for (Index i = 0; i < X.rows(); ++i) {
       const auto number = first + static_cast<std::uint64_t>(i);
       if (number % 3 == 1) performances(i) = std::nan("");
-      if (number % 3 == 2) descriptors(i, 1) = std::numeric_limits<double>::infinity();
+      if (number % 3 == 2) descriptors(i, 1) = kInf;
     }
   };
   MapElites searching = search({.batch = 99, .initial = 99});

@@ -1,7 +1,6 @@
 #include "rehearse/qd/niches.hpp"
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -32,7 +31,7 @@ TEST(Grid, HasAsManyBinsOfEachDescriptorAsItIsGiven) {
 TEST(Niches, HaveNoPlaceForWhatIsNotFinite) {
   const Niches grid(Grid{{{0, 1}, {0, 1}}, {2, 2}});
   const Niches cvt(Cvt{.bounds = {{0, 1}, {0, 1}}, .niches = 10, .samples = 100});
-  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+  for (const double bad : {std::nan(""), kInf})
     for (const Niches& niches : {grid, cvt}) EXPECT_EQ(find(niches, Vector{{0.5, bad}}), -1);
 }
 

@@ -1,7 +1,5 @@
 #include "rehearse/report/files.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "report_folder.hpp"
@@ -15,7 +13,7 @@ TEST(Rounded, KeepsWholeNumbersAndSoManyDigitsOfOthers) {
   EXPECT_EQ(rounded(1234567.0), 1234567);
   EXPECT_EQ(rounded(0.123456789), 0.123457);
   EXPECT_EQ(rounded(12345.678, 4), 12350);
-  EXPECT_TRUE(rounded(std::numeric_limits<double>::infinity()).is_null());
+  EXPECT_TRUE(rounded(kInf).is_null());
   EXPECT_EQ(rounded(Json::parse(R"({"a": [0.123456789, "0.123456789"]})")),
             Json::parse(R"({"a": [0.123457, "0.123456789"]})"));
 }

@@ -1,7 +1,6 @@
 #include "rehearse/reward/saturating.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -31,7 +30,7 @@ TEST(Saturating, WidthScalesTheDistance) {
 }
 
 TEST(Saturating, NanStaysInItsRow) {
-  const Vector r = rewards_of(Matrix{{0}, {std::numeric_limits<double>::quiet_NaN()}, {0}}, 0.5);
+  const Vector r = rewards_of(Matrix{{0}, {kNaN}, {0}}, 0.5);
   EXPECT_EQ(r(0), 1);
   EXPECT_TRUE(std::isnan(r(1)));
   EXPECT_EQ(r(2), 1);

@@ -1,7 +1,6 @@
 #include "rehearse/robots/hexapod/dart_simulator.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -126,7 +125,7 @@ class DartWorld {
     if (sane())
       read(x, dx);
     else
-      dx.setConstant(std::numeric_limits<double>::quiet_NaN());
+      dx.setConstant(kNaN);
   }
 
  private:

@@ -56,7 +56,7 @@ class Model final : public dynamics::DynamicsModel {
     mean.col(1) = 0.1 * X.col(0);
     variance.setConstant(variance_);
     for (Index i = 0; spoil_ && i < X.rows(); ++i)
-      if (spoil_(X(i, 0), X(i, 1))) mean.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      if (spoil_(X(i, 0), X(i, 1))) mean.row(i).setConstant(kNaN);
   }
 
  private:

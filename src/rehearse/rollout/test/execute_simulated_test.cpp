@@ -1,5 +1,4 @@
 // A simulator in the place of the plant.
-#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -39,7 +38,7 @@ TEST(ExecuteSimulated, AStepThatCannotBeSimulatedIsAFall) {
       system::make_simulator({}, [&](const ConstMatrixView&, const ConstMatrixView&, const Vector&, MatrixView dX) {
         if (steps++ == 3) throw std::runtime_error("lost");
         if (steps > 4)
-          dX.setConstant(std::numeric_limits<double>::quiet_NaN());
+          dX.setConstant(kNaN);
         else
           dX.setConstant(0.1);
       });

@@ -1,7 +1,6 @@
 #include "rehearse/rollout/execute.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -178,15 +177,13 @@ TEST(Execute, AStateThatIsNoStateIsAnError) {
   const std::string name = cart::task().states[1].name;
   EXPECT_NE(why(Vector::Zero(3)).find(" has 3 entries, must have 2"), std::string::npos);
   EXPECT_NE(why(Vector()).find(" has 0 entries, must have 2"), std::string::npos);
-  EXPECT_NE(why(Vector{{0, std::numeric_limits<double>::quiet_NaN()}}).find(" has " + name + " = nan, must be finite"),
-            std::string::npos);
-  EXPECT_NE(why(Vector{{std::numeric_limits<double>::infinity(), 0}}).find(" = inf, must be finite"),
-            std::string::npos);
+  EXPECT_NE(why(Vector{{0, kNaN}}).find(" has " + name + " = nan, must be finite"), std::string::npos);
+  EXPECT_NE(why(Vector{{kInf, 0}}).find(" = inf, must be finite"), std::string::npos);
   EXPECT_NE(why(Vector{{-1e30, 0}}).find(" = -1e+30, must be within ±1e+12"), std::string::npos);
 }
 
 TEST(Execute, ARewardThatIsNotFiniteEndsTheEpisodeAtTheFloor) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad : {kNaN, kInf}) {
     Task task = cart::task();
     int steps = 0;
     task.reward = [&](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {

@@ -1,7 +1,6 @@
 #include "rehearse/rollout/simulate.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -181,7 +180,7 @@ TEST(Simulate, AFailureIsChargedTheFloorAndCounted) {
 TEST(Simulate, ARewardThatIsNotFiniteIsAFailureToo) {
   Task task = cart::task(0);
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
-    rewards.setConstant(std::numeric_limits<double>::infinity());
+    rewards.setConstant(kInf);
   };
   const Simulated simulated = simulate_cart(task, cart::candidates(3), 2);
   EXPECT_EQ(simulated.failed, 6);
@@ -196,7 +195,7 @@ TEST(Simulate, HugePredictionsDisturbNoOtherRollout) {
                  MatrixView variance) const override {
       model_.predict(X, U, mean, variance);
       for (Index i = 0; i < X.rows(); ++i)
-        if (X(i, 1) > 1.15) mean(i, 0) = i % 2 ? 1e300 : -std::numeric_limits<double>::infinity();
+        if (X(i, 1) > 1.15) mean(i, 0) = i % 2 ? 1e300 : -kInf;
     }
 
    private:

@@ -58,7 +58,7 @@ TEST(ProgramSimulator, RowsThatCannotBeSimulatedAreNaN) {
     Matrix U = Matrix::Ones(4, 1);
     U(2, 0) = value(Harm::no_row);
     expect_rows(*hostile_simulator(encoding), U, {2});
-    U(1, 0) = std::numeric_limits<double>::quiet_NaN();  // is not asked
+    U(1, 0) = kNaN;  // is not asked
     const auto simulator = hostile_simulator(encoding);
     expect_rows(*simulator, U, {1, 2});
     EXPECT_EQ(simulator->faults().count, 0);

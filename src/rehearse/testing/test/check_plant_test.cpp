@@ -1,6 +1,5 @@
 #include "rehearse/testing/check_plant.hpp"
 
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -26,7 +25,7 @@ class MadePlant final : public system::Plant {
   Vector step(const Vector& u) override {
     x_ += u(0);
     if (fault_ == PlantFault::wrong_size) return Vector{{x_, x_}};
-    if (fault_ == PlantFault::nan) return Vector{{std::numeric_limits<double>::quiet_NaN()}};
+    if (fault_ == PlantFault::nan) return Vector{{kNaN}};
     if (fault_ == PlantFault::throws) throw std::runtime_error("no answer");
     return Vector{{x_}};
   }

@@ -1,7 +1,6 @@
 #include "rehearse/learners/pilco/model.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -111,7 +110,7 @@ TEST(Model, CanBeInterruptedWhileItPlacesInducingInputs) {
 
 TEST(Model, SurvivesDataThatTellNothing) {
   Dataset data;
-  data.states = Matrix::Constant(3, 1, std::numeric_limits<double>::quiet_NaN());
+  data.states = Matrix::Constant(3, 1, kNaN);
   data.actions = Matrix::Zero(3, 1);
   data.changes = data.states;
   data.rewards = Vector::Zero(3);

@@ -1,7 +1,6 @@
 #include "rehearse/learners/pilco/prior_phase.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -145,7 +144,7 @@ TEST(PriorPhase, SurvivesASimulatorThatFails) {
   Setting broken = setting_with_prior();
   const ParameterSpace none;
   const auto fails_on_the_left = [](const ConstMatrixView& X, const ConstMatrixView& U, const Vector&, MatrixView dX) {
-    dX = (X.array() < 0.9).select(std::numeric_limits<double>::quiet_NaN(), 0.1 * U.array()).matrix();
+    dX = (X.array() < 0.9).select(kNaN, 0.1 * U.array()).matrix();
   };
   broken.prior = prior::Prior{"broken", system::make_simulator(none, fails_on_the_left), none};
   const auto learner = make(broken, options(2, 5));
