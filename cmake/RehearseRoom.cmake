@@ -34,8 +34,8 @@ endfunction()
 # Makes the folder it is called from a room: one static library rehearse_NAME (rehearse::NAME when installed) of its
 # *.cpp, those of FOLDERS included, and one test program of its test/*.cpp; with SOURCES of those alone, and no test. USES is the room's row in the table of
 # docs/architecture.md, ALONE what is not compiled together with others, TEST_USES what its tests use beside that: a file that includes a header of another room is an
-# error at configure time, so the build enforces the direction; so is a room of which nothing is included. COLD: nothing in it takes long, so compiling it must not
-# either (rehearse_cold).
+# error at configure time, so the build enforces the direction; so is a room of which nothing is included. COLD: nothing in
+# it takes long, so compiling it must not either (rehearse_cold).
 function(rehearse_room name)
   cmake_parse_arguments(ROOM "COLD" "" "SOURCES;ALONE;USES;FOLDERS;LINKS;PRIVATE_LINKS;TEST_USES;TEST_LINKS" ${ARGN})
   string(REPLACE "/" "_" target ${name})

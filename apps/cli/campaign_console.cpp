@@ -178,7 +178,7 @@ void CampaignConsole::run_ended(std::size_t run, const RunOutcome& outcome) {
   const auto found = running_.find(run);
   double seconds = 0;
   if (found != running_.end()) {
-    Cost& spent = spent_[learner_of(run)];
+    Cost& spent = spent_[kind_of(run)];
     seconds = Seconds(Clock::now() - found->second.begin).count();
     spent.seconds += seconds;
     spent.trials += outcome.done() - found->second.before;
@@ -208,8 +208,9 @@ std::string CampaignConsole::name_of(std::size_t run) const {
   return fmt::format("{} seed {}", label_of(plan_.groups[planned.group]), planned.spec.seed);
 }
 
-const std::string& CampaignConsole::learner_of(std::size_t run) const {
-  return plan_.groups[plan_.runs[run].group].learner;
+std::string CampaignConsole::kind_of(std::size_t run) const {
+  const CampaignGroup& group = plan_.groups[plan_.runs[run].group];
+  return group.learner + " " + group.variant;
 }
 
 std::map<std::string, CampaignConsole::Cost> CampaignConsole::costs() const {
@@ -217,29 +218,33 @@ std::map<std::string, CampaignConsole::Cost> CampaignConsole::costs() const {
   for (const auto& [run, state] : running_) {
     const Index trials = state.trial - 1 - state.before;
     if (trials <= 0) continue;
-    costs[learner_of(run)].seconds += Seconds(state.trial_begin - state.begin).count();
-    costs[learner_of(run)].trials += trials;
+    Cost& cost = costs[kind_of(run)];
+    cost.seconds += Seconds(state.trial_begin - state.begin).count();
+    cost.trials += trials;
   }
   return costs;
 }
 
-/// Trials are taken to last as long as those before of the same learner; of all learners, before it has any.
+/// Trials are taken to last as long as those before of the same learner and variant; as all, before it has any. A run
+/// that takes longer than that says nothing of those that have not begun.
 std::optional<double> CampaignConsole::seconds_left() const {
   const std::map<std::string, Cost> known = costs();
   Cost all;
-  for (const auto& [learner, cost] : known) {
+  for (const auto& [kind, cost] : known) {
     all.seconds += cost.seconds;
     all.trials += cost.trials;
   }
   if (all.trials == 0) return std::nullopt;
   double seconds = 0;
   for (std::size_t run = 0; run < left_.size(); ++run) {
-    const auto found = known.find(learner_of(run));
+    const auto found = known.find(kind_of(run));
     const Cost& cost = found != known.end() && found->second.trials > 0 ? found->second : all;
-    seconds += static_cast<double>(left_[run]) * cost.seconds / static_cast<double>(cost.trials);
+    double of_run = static_cast<double>(left_[run]) * cost.seconds / static_cast<double>(cost.trials);
+    if (const auto state = running_.find(run); state != running_.end())
+      of_run -= Seconds(Clock::now() - state->second.begin).count();
+    seconds += std::max(0.0, of_run);
   }
-  for (const auto& [run, state] : running_) seconds -= Seconds(Clock::now() - state.begin).count();
-  return std::max(0.0, seconds) / static_cast<double>(at_once_);
+  return seconds / static_cast<double>(at_once_);
 }
 
 }  // namespace rehearse::apps

@@ -33,14 +33,14 @@ class CampaignConsole final : public campaign::CampaignListener {
     Index trial = 1;
   };
 
-  /// The cost of a learner's trials so far.
+  /// The cost of trials so far.
   struct Cost {
     double seconds = 0;
     Index trials = 0;
   };
 
   std::string name_of(std::size_t run) const;
-  const std::string& learner_of(std::size_t run) const;
+  std::string kind_of(std::size_t run) const;  // its learner and variant
   std::map<std::string, Cost> costs() const;
   std::optional<double> seconds_left() const;
 

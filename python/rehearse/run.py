@@ -160,7 +160,8 @@ class Run:
                    policy: Union[Policy, PathLike, None] = None, seconds: float = 0.0, seed: Union[int, None] = None,
                    options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Array:
         """Such episodes with one parameter of the robot changed at a time, by factors of 0.75 to 1.25: the rows of
-        robustness.csv (docs/evaluate.md); a changed robot that fails has none, and a warning says why. An environment has no parameters to change."""
+        robustness.csv (docs/evaluate.md); a changed robot that fails has none, and a warning says why. An environment has
+        no parameters to change."""
         text = _core.robustness(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
         return from_csv(text, TEXTS, WHOLE)
 
@@ -246,7 +247,7 @@ def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], 
     Ctrl-C stops it, and `Run.resume` goes on. An exception of a function of the robot stops it, too, and comes out as
     it is. Raises InvalidInput with a line for everything that is wrong, RunFailed where plant or learner fail.
     """
-    trials, seed, threads = whole("trials", trials), whole("seed", seed, 0, 2**53), threads_of(threads)
+    trials, seed, threads = whole("trials", trials), whole("seed", seed), threads_of(threads)
     core, scenario = robot_of(robot)
     names = ",".join(texts("prior", [] if prior is None else prior, "a name, several, or None"))
     own = robot if isinstance(robot, Robot) else None

@@ -152,7 +152,7 @@ def test_a_policy_is_tried_on_another_environment(tmp_path):
     assert (own == run.evaluate(2).returns).all() and (heavy != own).all()
     with pytest.raises(rehearse.InvalidInput, match="^unknown option 'plant.mass': the plant of cart has no parameters that are options$"):
         run.evaluate(2, options={"plant.mass": 3})
-    with pytest.raises(rehearse.InvalidInput, match="^scenario cart has no parameter scenario.plant.NAME that could be changed$"):
+    with pytest.raises(rehearse.InvalidInput, match="^scenario cart has no parameter plant.NAME that could be changed$"):
         run.robustness(2)
 
 

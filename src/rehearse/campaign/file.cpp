@@ -254,6 +254,9 @@ class CampaignReader {
     MedianClaim median{.measure = read_measure(reader)};
     median.at_least = number(reader, "median_at_least");
     median.at_most = number(reader, "median_at_most");
+    if (median.at_least && median.at_most && *median.at_most < *median.at_least)
+      violations_.add(reader.line(), fmt::format("median_at_most = {}, must be ≥ median_at_least = {}", *median.at_most,
+                                                 *median.at_least));
     return median;
   }
 

@@ -33,8 +33,8 @@ std::vector<Value> parameters_of(const Resolved& run) {
       if (double value = 0; key.starts_with(kPlant) && from_text(text, value)) add(key.substr(kPlant.size()), value);
   }
   if (all.empty())
-    throw InvalidInput(fmt::format("scenario {} has no parameter {}NAME that could be changed", run.spec.scenario,
-                                   run.stand_in() ? "prior." : kPlant));
+    throw InvalidInput(fmt::format("scenario {} has no parameter {}.NAME that could be changed", run.spec.scenario,
+                                   run.stand_in() ? "prior" : "plant"));
   return all;
 }
 

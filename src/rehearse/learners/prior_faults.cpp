@@ -26,7 +26,7 @@ std::string fault_of_prior(const Setting& setting) {
   if (!fault) return {};
   return fmt::format("in {} under {}: {}", row_text(setting.task.states, fault->x, kMostNamed),
                      row_text(setting.task.actions, fault->u, kMostNamed),
-                     fault->why.empty() ? "it gives no finite change" : fault->why);
+                     fault->why.empty() ? "it gives no change that can be used" : fault->why);
 }
 
 }  // namespace rehearse::learners

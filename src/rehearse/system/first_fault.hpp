@@ -11,7 +11,7 @@ namespace rehearse::system {
 /// A row that a simulator could not simulate.
 struct Fault {
   Vector x, u;
-  std::string why;  // what it threw; empty: it gave no finite change
+  std::string why;  // what it threw; empty: it gave no change that can be used
 };
 
 /// Keeps one of the rows that a simulator could not simulate, for people: the smallest, number by number, so

@@ -123,7 +123,8 @@ class EpisodePlant final : public Plant {
 
   [[noreturn]] void fail() {
     const std::string problem = conversation_->problem();
-    conversation_.reset();  // the next episode begins with another process
+    if (conversation_->declined()) finish();  // the program goes on, and so may the robot
+    conversation_.reset();                    // the next episode begins with another process
     throw Unavailable(problem);
   }
 

@@ -102,6 +102,8 @@ TEST(ClaimPlan, SaysWhatIsWrongWithClaims) {
             "c.toml: line 6: at_most_runs = 1, must be ≥ at_least_runs = 2");
   EXPECT_EQ(about(success + "at_least_rate = 0.9\nat_most_rate = 0.1\n"),
             "c.toml: line 6: at_most_rate = 0.1, must be ≥ at_least_rate = 0.9");
+  EXPECT_EQ(about("learner = \"echo\"\nmetric = \"return\"\nmedian_at_least = 5\nmedian_at_most = 1\n"),
+            "c.toml: line 6: median_at_most = 1, must be ≥ median_at_least = 5");
   EXPECT_EQ(about(success + "at_least_rate = 95\n"), "c.toml: line 10: at_least_rate = 95, must be between 0 and 1");
   EXPECT_EQ(about("learner = \"echo\"\nsolved_by = 4\nat_least_runs = 1\n"),
             "c.toml: line 9: solved_by = 4, must be between 1 and 3");

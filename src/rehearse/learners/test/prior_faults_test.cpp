@@ -38,7 +38,7 @@ TEST(PriorFaults, OfLargeRobotsNameTheFirstStates) {
   Matrix dX(1, 8);
   setting.prior->mean(Matrix::Zero(1, 8), Matrix::Zero(1, 1), Vector(), dX);
   EXPECT_EQ(fault_of_prior(setting),
-            "in a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, … under u = 0: it gives no finite change");
+            "in a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, … under u = 0: it gives no change that can be used");
 }
 
 }  // namespace
