@@ -247,7 +247,7 @@ def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], 
     Ctrl-C stops it, and `Run.resume` goes on. An exception of a function of the robot stops it, too, and comes out as
     it is. Raises InvalidInput with a line for everything that is wrong, RunFailed where plant or learner fail.
     """
-    trials, seed, threads = whole("trials", trials), whole("seed", seed), threads_of(threads)
+    trials, seed, threads = whole("trials", trials), whole("seed", seed, 0, 2**53), threads_of(threads)
     core, scenario = robot_of(robot)
     names = ",".join(texts("prior", [] if prior is None else prior, "a name, several, or None"))
     own = robot if isinstance(robot, Robot) else None
