@@ -59,7 +59,7 @@ TEST(SoftBounds, GradientAgreesWithFiniteDifferences) {
         kBounds.to_free(at, gradient);
         return weights.dot(kBounds.flat(at));
       };
-      EXPECT_EQ(testing::check_gradient(weighted, u, 1e-7), std::vector<std::string>{}) << shift;
+      EXPECT_EQ(testing::check_gradient(weighted, u, 5e-8), std::vector<std::string>{}) << shift;
     }
   }
 }
