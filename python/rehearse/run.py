@@ -222,6 +222,8 @@ class Run:
 
     def _done(self, trial: int) -> int:
         given, done = whole("trial", trial), len(self.trials)
+        if done == 0:
+            raise _core.InvalidInput("no trial is done yet")
         if not 1 <= given <= done:
             raise _core.InvalidInput(f"trial = {given}, must be between 1 and {done}, the trials that are done")
         return given

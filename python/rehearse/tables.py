@@ -49,17 +49,26 @@ def from_csv(text: str, texts: Collection[str] = (), whole: Collection[str] = ()
     """A structured array, a field a column: numbers (NaN where a cell is empty), or texts.
 
     Names are those of the header without their units. texts: columns that are texts, whatever is in them; whole: those of
-    whole numbers.
+    whole numbers. Raises InvalidInput where a row has not as many cells as the header, or there is none.
     """
     rows = list(csv.reader(io.StringIO(text)))
-    header = [re.sub(r" \[.*\]$", "", name) for name in rows[0]] if rows else []
+    if not rows:
+        raise InvalidInput("it is empty, must have a header")
+    for number, row in enumerate(rows, 1):
+        if len(row) != len(rows[0]):
+            raise InvalidInput(f"row {number} has {len(row)} cells, must have {len(rows[0])}, as the header: it is damaged")
+    header = [re.sub(r" \[.*\]$", "", name) for name in rows[0]]
     cells = {name: [row[i] for row in rows[1:]] for i, name in enumerate(header)}
     return structured({name: _texts_of(column) if name in texts else _parsed(column, name in whole)
                        for name, column in cells.items()})
 
 
 def read_csv(path: Union[str, os.PathLike[str]], texts: Collection[str] = (), whole: Collection[str] = ()) -> Array:
-    return from_csv(read_text(path), texts, whole)
+    text = read_text(path)
+    try:
+        return from_csv(text, texts, whole)
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from None
 
 
 def _texts_of(cells: list[str]) -> Array:

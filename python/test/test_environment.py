@@ -152,6 +152,8 @@ def test_a_policy_is_tried_on_another_environment(tmp_path):
     assert (own == run.evaluate(2).returns).all() and (heavy != own).all()
     with pytest.raises(rehearse.InvalidInput, match="^unknown option 'plant.mass': the plant of cart has no parameters that are options$"):
         run.evaluate(2, options={"plant.mass": 3})
+    with pytest.raises(rehearse.InvalidInput, match="^measurement_noise: the plant is a function, which measures by itself, noise included$"):
+        run.evaluate(2, options={"measurement_noise": 0.1})
     with pytest.raises(rehearse.InvalidInput, match="^scenario cart has no parameter plant.NAME that could be changed$"):
         run.robustness(2)
 

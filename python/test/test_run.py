@@ -131,6 +131,21 @@ def test_a_trial_is_replayed(tmp_path):
     assert run.replay(1) == run.folder / "replay-001.html" and (run.folder / "replay-001.html").stat().st_size > 10000
     with pytest.raises(rehearse.InvalidInput, match="trial = 2, must be between 1 and 1"):
         run.replay(2)
+    begun = learn(cart(), tmp_path / "begun", trials=0)
+    for call in (begun.trajectory, begun.prediction, begun.replay):
+        with pytest.raises(rehearse.InvalidInput, match="^no trial is done yet$"):
+            call(1)
+
+
+def test_a_damaged_table_is_named(tmp_path):
+    run = learn(cart(), tmp_path / "run", trials=1)
+    table = run.folder / "trials.csv"
+    whole = table.read_text()
+    for text, why in ((whole[:-20], "row 2 has [0-9]+ cells, must have [0-9]+, as the header: it is damaged"),
+                      ("", "it is empty, must have a header")):
+        table.write_text(text)
+        with pytest.raises(rehearse.InvalidInput, match=f"trials.csv: {why}$"):
+            run.table("trials")
 
 
 def test_an_environment_is_the_plant(tmp_path):

@@ -9,6 +9,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/files/checksum.hpp"
 #include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::experiment {
@@ -29,6 +30,13 @@ std::string first_difference(const std::string& text, const std::string& other) 
 }
 
 }  // namespace
+
+std::string checksum_of(const RobotFile& robot) {
+  std::string bytes = robot.text;
+  for (const scenario::NamedFile& file : robot.files)
+    bytes += fmt::format("\n{} {}\n", file.path, file.bytes.size()) + file.bytes;
+  return fmt::format("{:016x}", files::checksum(bytes));
+}
 
 scenario::ReadFile files_in(const std::filesystem::path& folder) {
   return [folder](const std::string& path) -> std::optional<std::string> {

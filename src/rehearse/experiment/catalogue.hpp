@@ -31,6 +31,9 @@ struct RobotFile {
   std::vector<scenario::NamedFile> files;  // that it names
 };
 
+/// Of its text, and of the names and bytes of its files, where there are some.
+std::string checksum_of(const RobotFile& robot);
+
 /// Reads the files of a folder that a robot's file names.
 scenario::ReadFile files_in(const std::filesystem::path& folder);
 

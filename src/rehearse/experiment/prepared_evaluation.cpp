@@ -7,7 +7,7 @@
 
 #include "rehearse/core/names.hpp"
 #include "rehearse/core/options.hpp"
-#include "rehearse/scenario/policy_options.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -24,16 +24,21 @@ GivenPolicy policy_wanted(const EvaluationRequest& request, const PastRun& run) 
 class ChangesOfEpisodes {
  public:
   explicit ChangesOfEpisodes(const PastRun& run) : prior_plays_(run.resolved.stand_in() != nullptr) {
-    scenario::PolicyOptions policy;
-    for (const auto& [name, value] : list_fields([&](FieldVisitor& v) { policy.fields(v); }))
+    scenario::OdeOptions options;
+    for (const auto& [name, value] : list_fields([&](FieldVisitor& v) { options.policy.fields(v); }))
       of_policy_.push_back(name);
+    for (const auto& [name, value] : list_fields([&](FieldVisitor& v) { options.fields_of_learning(v); }))
+      of_learning_.push_back(name);
     for (const auto& [key, value] : run.resolved.spec.options) all_.push_back(key);
   }
 
   /// Empty: it may, or there is no such option.
   std::string why_not(const std::string& key) const {
-    if (const std::string name = without("scenario.", key); is_among("scenario." + name, all_))
-      return is_among(name, of_policy_) ? "it is an option of the policy, which stays as it was learned" : "";
+    if (const std::string name = without("scenario.", key); is_among("scenario." + name, all_)) {
+      if (is_among(name, of_policy_)) return "it is an option of the policy, which stays as it was learned";
+      if (is_among(name, of_learning_)) return "it is an option of learning";
+      return name == "substeps" && !prior_plays_ ? "it is an option of priors, and none plays the robot" : "";
+    }
     if (is_among("learner." + without("learner.", key), all_)) return "it is an option of the learner";
     if (is_among(key, options_of_runs())) return "it is an option of learning";
     return key.starts_with("prior.") && !prior_plays_ ? "no prior plays the robot" : "";
@@ -52,7 +57,7 @@ class ChangesOfEpisodes {
   }
 
   bool prior_plays_;
-  std::vector<std::string> all_, of_policy_;
+  std::vector<std::string> all_, of_policy_, of_learning_;
 };
 
 /// The settings that change episodes; each other one is a violation.
@@ -66,12 +71,6 @@ learners::OptionTexts with_effect(const learners::OptionTexts& settings, const P
       violations.add(
           fmt::format("{} changes no episode: {}; what can be set: {}", key, why, fmt::join(changes.known(), ", ")));
   return left;
-}
-
-/// A run with options that differ from its own. catalogue: with the run's robot.
-Resolved changed(const Catalogue& catalogue, Spec spec, const learners::OptionTexts& settings) {
-  spec.options.insert(spec.options.end(), settings.begin(), settings.end());
-  return resolve_begun(catalogue, spec);
 }
 
 }  // namespace
@@ -89,7 +88,7 @@ PreparedEvaluation prepare_evaluation(const PastRun& run, EvaluationRequest requ
   std::optional<Resolved> resolved;
   violations.attempt([&] { policy = policy_wanted(request, run); });
   request.settings = run.as_identified(with_effect(request.settings, run, violations));
-  violations.attempt([&] { resolved = changed(run.catalogue, run.resolved.spec, request.settings); });
+  violations.attempt([&] { resolved = resolve_begun(run.catalogue, run.resolved.spec, request.settings); });
   violations.throw_if_any();
   const scenario::Scenario& scenario = resolved->scenario;
   if (scenario.require_ready) scenario.require_ready(scenario::PlantUse::driven);
@@ -103,7 +102,7 @@ std::vector<Outcome> evaluate(const PreparedEvaluation& prepared, const Evaluato
 
 std::vector<Changed> robustness(const PreparedEvaluation& prepared, const Evaluator& evaluator) {
   const auto make = [&](const std::string& key, const std::string& value) {
-    return changed(prepared.catalogue, prepared.resolved.spec, {{key, value}});
+    return resolve_begun(prepared.catalogue, prepared.resolved.spec, {{key, value}});
   };
   return robustness(make, prepared.resolved, prepared.policy.learned, prepared.request.plan, evaluator);
 }

@@ -8,7 +8,6 @@
 #include "rehearse/core/names.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/priors.hpp"
-#include "rehearse/files/checksum.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::experiment {
@@ -16,23 +15,18 @@ namespace {
 
 constexpr std::string_view kScenario = "scenario.", kLearner = "learner.", kPrior = "prior.";
 
+/// The options of a scenario or a learner; one that is unknown has none.
 template <class Builder>
-Fields fields_of(Builder& builder) {
-  return [&builder](FieldVisitor& v) { builder.fields(v); };
-}
-
-/// The robot's file as it is; with the files that it names, and their names, where there are some.
-std::string checksum_of(const RobotFile& robot) {
-  std::string bytes = robot.text;
-  for (const scenario::NamedFile& file : robot.files)
-    bytes += fmt::format("\n{} {}\n", file.path, file.bytes.size()) + file.bytes;
-  return fmt::format("{:016x}", files::checksum(bytes));
+Fields options_of(const std::unique_ptr<Builder>& builder) {
+  return [&builder](FieldVisitor& v) {
+    if (builder) builder->fields(v);
+  };
 }
 
 /// The checks beside those of names and of each value alone.
 struct Check {
   bool learner = true;     // whether it can do with the task and the policy
-  bool conditions = true;  // between options
+  bool conditions = true;  // between the spec's own options
 };
 
 /// Resolves one spec, collecting what is wrong with it as far as it can be known.
@@ -54,11 +48,15 @@ class Resolver {
     violations_.throw_if_any();
   }
 
-  Resolved resolve() {
+  /// settings: set after the spec's own options.
+  Resolved resolve(const learners::OptionTexts& settings = {}) {
     set_preferences();
     if (default_preset_) set_defaults(*default_preset_);
     for (const auto& [key, text] : spec_.options) set_option(key, text);
-    check_conditions();
+    const std::vector<std::string> allowed = check_.conditions ? std::vector<std::string>{} : broken_conditions();
+    for (const auto& [key, text] : settings) set_option(key, text);
+    spec_.options.insert(spec_.options.end(), settings.begin(), settings.end());
+    check_conditions(allowed);
     const std::vector<std::string> names = prior_names();
     const auto scenario = contained([&] { return scenario_builder_->build(); });
     if (!scenario) violations_.throw_if_any();
@@ -89,22 +87,21 @@ class Resolver {
   /// Where scenario or learner is unknown: the values of the other one's options, and the names of priors.
   void check_the_known_one() {
     for (const auto& [key, text] : spec_.options) contained([&] { return set_named(key, text); });
-    check_conditions();
+    check_conditions({});
     if (!scenario_builder_) return;
     if (const auto scenario = contained([&] { return scenario_builder_->build(); }))
       ChosenPriors(*scenario, split_names(spec_.prior), violations_);
   }
 
-  /// The options of the scenario, or of the learner; one that is unknown has none.
-  template <class Builder>
-  static Fields options_of(const std::unique_ptr<Builder>& builder) {
-    return builder ? fields_of(*builder) : [](FieldVisitor&) {};
+  std::vector<std::string> broken_conditions() const {
+    std::vector<std::string> all = field_violations(options_of(scenario_builder_));
+    for (const std::string& line : field_violations(options_of(learner_builder_))) all.push_back(line);
+    return all;
   }
 
-  void check_conditions() {
-    if (!check_.conditions) return;
-    for (const Fields& fields : {options_of(scenario_builder_), options_of(learner_builder_)})
-      violations_.add(field_violations(fields));
+  void check_conditions(const std::vector<std::string>& allowed) {
+    for (const std::string& line : broken_conditions())
+      if (!is_among(line, allowed)) violations_.add(line);
   }
 
   void check_robot(const RobotFile* file) {
@@ -156,7 +153,7 @@ class Resolver {
     for (const auto& [key, text] : learner_builder_->scenario_defaults()) {
       if (is_among(key, scenario_builder_->stated())) continue;
       try {
-        set_field(fields_of(*scenario_builder_), key, text);
+        set_field(options_of(scenario_builder_), key, text);
       } catch (const InvalidInput&) {  // no such value: as if nothing were preferred
       }
     }
@@ -190,8 +187,8 @@ class Resolver {
       for (const auto& [name, text] : fields) known.push_back(std::string(section) + name);
     };
     const bool of_learner = key.starts_with(kLearner), of_scenario = key.starts_with(kScenario);
-    if (!of_learner) add(of_scenario ? kScenario : "", list_fields(fields_of(*scenario_builder_)));
-    if (!of_scenario) add(of_learner ? kLearner : "", list_fields(fields_of(*learner_builder_)));
+    if (!of_learner) add(of_scenario ? kScenario : "", list_fields(options_of(scenario_builder_)));
+    if (!of_scenario) add(of_learner ? kLearner : "", list_fields(options_of(learner_builder_)));
     Spec of_run = spec_;
     if (!of_learner && !of_scenario) add("", list_fields([&](FieldVisitor& v) { of_run.settable_fields(v); }));
     return known;
@@ -246,8 +243,8 @@ class Resolver {
     spec_.prior.clear();
     for (const std::string& name : names) spec_.prior += (spec_.prior.empty() ? "" : ",") + name;
     spec_.options.clear();
-    add_options(kScenario, describe_fields(fields_of(*scenario_builder_)));
-    add_options(kLearner, describe_fields(fields_of(*learner_builder_)));
+    add_options(kScenario, describe_fields(options_of(scenario_builder_)));
+    add_options(kLearner, describe_fields(options_of(learner_builder_)));
     for (const auto& [name, text] : priors.values()) {
       spec_.options.emplace_back(name, text);
       comments_[name] = "the prior's, before anything is learned";
@@ -283,8 +280,8 @@ const prior::Prior* Resolved::stand_in() const {
 
 Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec, {}).resolve(); }
 
-Resolved resolve_begun(const Catalogue& catalogue, const Spec& spec) {
-  return Resolver(catalogue, spec, {.conditions = false}).resolve();
+Resolved resolve_begun(const Catalogue& catalogue, const Spec& spec, const learners::OptionTexts& settings) {
+  return Resolver(catalogue, spec, {.conditions = false}).resolve(settings);
 }
 
 Spec completed(const Catalogue& catalogue, const Spec& spec) {

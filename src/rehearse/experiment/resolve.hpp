@@ -27,8 +27,9 @@ struct Resolved {
 /// Throws InvalidInput with a line for everything that is wrong.
 Resolved resolve(const Catalogue& catalogue, const Spec& spec);
 
-/// The same for looking at a run that has begun, perhaps by an older version: options may contradict each other.
-Resolved resolve_begun(const Catalogue& catalogue, const Spec& spec);
+/// The same for looking at a run that has begun, perhaps by an older version: its options may contradict each other.
+/// settings: they are set after these, and what they contradict is refused.
+Resolved resolve_begun(const Catalogue& catalogue, const Spec& spec, const learners::OptionTexts& settings = {});
 
 /// The complete spec alone, even where the learner cannot do with the task or the policy that it describes so far.
 Spec completed(const Catalogue& catalogue, const Spec& spec);

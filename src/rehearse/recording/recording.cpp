@@ -94,6 +94,11 @@ std::string slow_loop(double usual_s, double dt_s) {
       usual_s, dt_s);
 }
 
+/// The times of rows: those of the state with the fewest empty cells.
+const std::vector<Sample>& rows_of(const Channels& channels) {
+  return std::ranges::max_element(channels.states, {}, [](const Channel& c) { return c.samples.size(); })->samples;
+}
+
 /// The distance of each control step to the nearest row.
 std::vector<double> away_from_rows_s(const std::vector<Sample>& samples, const Grid& grid) {
   std::vector<double> all;
@@ -106,23 +111,31 @@ std::vector<double> away_from_rows_s(const std::vector<Sample>& samples, const G
   return all;
 }
 
-/// off_s: the largest distance of a control step to the nearest row.
-void note_resampling(const Channels& channels, const Grid& grid, const Resampled& changed, double off_s,
-                     std::vector<std::string>& notes) {
+/// A sentence where most control steps have a row of their own, and some of them do not.
+std::string note_of_steps_with_rows(const Grid& grid, const Resampled& changed, const std::vector<double>& away_s) {
+  const double off_s = std::ranges::max(away_s);
+  if (off_s == 0)
+    return fmt::format("cells are empty at {} of {} control steps: numbers are interpolated there",
+                       std::max(changed.states, changed.actions), grid.steps);
+  if (off_s <= kLittle * grid.dt_s)
+    return fmt::format("rows are up to {:.2g} s off the control steps of {} s: numbers are interpolated", off_s,
+                       grid.dt_s);
+  return fmt::format("no row with numbers is near {} of {} control steps: they are interpolated there",
+                     std::ranges::count_if(away_s, [&](double s) { return s > kLittle * grid.dt_s; }), grid.steps);
+}
+
+void note_resampling(const Channels& channels, const Grid& grid, const Resampled& changed,
+                     const std::vector<double>& away_s, std::vector<std::string>& notes) {
   const double little_s = kLittle * grid.dt_s;
   if (grid.start_s > little_s)
     notes.push_back(
         fmt::format("step 0 is at {:.13g} s, the first time at which all columns have numbers", grid.start_s));
   if (changed.states == 0 && changed.actions == 0) return;
-  const auto& samples = channels.states.front().samples;
-  const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+  const auto& rows = rows_of(channels);
+  const double usual_s = (rows.back().time_s - rows.front().time_s) / static_cast<double>(rows.size() - 1);
   const bool one_row_a_step = usual_s >= grid.dt_s - little_s && changed.on_lines == 0;
-  if (one_row_a_step && off_s <= little_s) {
-    notes.push_back(off_s > 0
-                        ? fmt::format("rows are up to {:.2g} s off the control steps of {} s: numbers are interpolated",
-                                      off_s, grid.dt_s)
-                        : fmt::format("cells are empty at {} of {} control steps: numbers are interpolated there",
-                                      std::max(changed.states, changed.actions), grid.steps));
+  if (one_row_a_step && statistics::quantile(away_s, 0.5) <= little_s) {
+    notes.push_back(note_of_steps_with_rows(grid, changed, away_s));
     return;
   }
   std::vector<std::string> how;
@@ -177,11 +190,11 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   check_channels(channels, task, problems, recording.notes);
   check_gaps(channels, grid, max_gap_s, problems);
   problems.throw_if_any();
-  const std::vector<double> away_s = away_from_rows_s(channels.states.front().samples, grid);
+  const std::vector<double> away_s = away_from_rows_s(rows_of(channels), grid);
   recording.off_s = statistics::quantile(away_s, 0.9);
   Resampled changed = resample(channels, grid, options.average, recording.episode);
   recording.unaveraged = std::move(changed.unaveraged);
-  note_resampling(channels, grid, changed, std::ranges::max(away_s), recording.notes);
+  note_resampling(channels, grid, changed, away_s, recording.notes);
   add_memory(recording.episode, task);
   return recording;
 }

@@ -6,18 +6,33 @@
 #include "rehearse/core/errors.hpp"
 
 namespace rehearse::scenario {
+namespace {
+
+void visit_substeps(FieldVisitor& v, Index& substeps) {
+  v.integer("substeps", substeps, expert("integration steps per control step, of priors and oracle"), between(1, 1e4));
+}
+
+void visit_evaluations(FieldVisitor& v, Index& evaluations) {
+  v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
+}
+
+}  // namespace
 
 void OdeOptions::fields(FieldVisitor& v) {
   v.number("start_noise", start_noise, "standard deviation of every state at the start [its unit]", at_least(0));
   v.number("measurement_noise", measurement_noise,
            "standard deviation of the measurement noise of every state [its unit]", at_least(0));
+  visit_substeps(v, substeps);
+  fields_of_learning(v);
+  policy.fields(v);
+}
+
+void OdeOptions::fields_of_learning(FieldVisitor& v) {
   v.number("box_low", box_low, "lower bound of the prior's tunable parameters [their unit]", at_least(0));
   v.number("box_high", box_high, "upper bound of the prior's tunable parameters [their unit]", above(0));
-  v.integer("substeps", substeps, expert("integration steps per control step, of priors and oracle"), between(1, 1e4));
   v.number("initial_reward_width", initial_reward_width,
            "width of the initial guess of the reward when it is learned; 0: no guess", at_least(0));
-  v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
-  policy.fields(v);
+  visit_evaluations(v, evaluations);
 }
 
 void OdeOptions::fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant) {
@@ -31,8 +46,8 @@ void OdeOptions::fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant)
   for (Parameter& noise : measurement_noises)
     v.number("measurement_noise." + noise.name, noise.value,
              "standard deviation of the state's measurement noise [its unit]", at_least(0));
-  v.integer("substeps", substeps, expert("integration steps per control step, of priors and oracle"), between(1, 1e4));
-  v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
+  visit_substeps(v, substeps);
+  visit_evaluations(v, evaluations);
   policy.fields(v);
 }
 

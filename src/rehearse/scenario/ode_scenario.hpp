@@ -31,6 +31,9 @@ struct OdeOptions {
   Vector measurement_std(Index states) const;
   void fields(FieldVisitor& v);
 
+  /// Those of `fields` that change no episode of a policy: they are of what is learned, and of how.
+  void fields_of_learning(FieldVisitor& v);
+
   /// Fields in the place of `fields`, for a robot without options of its own: `plant.NAME` for each parameter of the
   /// plant, measurement_noise or measurement_noise.STATE for each state, substeps, evaluations, those of the policy.
   void fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant);

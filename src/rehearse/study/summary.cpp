@@ -6,7 +6,7 @@
 
 #include "rehearse/core/names.hpp"
 #include "rehearse/core/text_table.hpp"
-#include "rehearse/identification/identifiability.hpp"
+#include "rehearse/study/warnings.hpp"
 
 namespace rehearse::study {
 namespace {
@@ -32,8 +32,7 @@ Section logs(const Study& study, const Problem& problem) {
         lines.push_back(fmt::format("{}: {:+.3g} {} are added to {}", problem.logs[i].name, offset,
                                     problem.task.states[s].unit, problem.task.states[s].name));
     }
-  for (const Hint& hint : study.hints) lines.push_back(line_of(hint, problem.task));
-  if (!study.odd_log.empty()) lines.push_back(study.odd_log);
+  for (std::string& line : log_warnings(study, problem.task)) lines.push_back(std::move(line));
   for (const std::string& note : study.model.learned.notes) lines.push_back(note);
   return {"Logs", {}, lines};
 }
@@ -42,30 +41,6 @@ std::string interval_of(const LogModel& model, std::size_t continuous) {
   const std::vector<Interval> intervals = intervals_of(model);
   if (intervals.empty()) return moves(model) ? "unknown" : "nothing moves";
   return fmt::format("{:.4g} to {:.4g}", intervals[continuous].low, intervals[continuous].high);
-}
-
-/// Parameters that are not at a bound, where they would predict best: because errors are large, and tell
-/// little. Then a bound may be the reason.
-Lines ends(const Zeros& zeros, const ParameterSpace& space) {
-  Lines lines;
-  for (const Index i : space.of_kind(Parameter::Kind::continuous)) {
-    const auto end = identification::end_at(space[i], zeros.closest_phi(i));
-    if (end && !identification::end_at(space[i], zeros.phi(i)))
-      lines.push_back(fmt::format("{} would predict best at its bound, {:.3g}: a better value may lie beyond",
-                                  space[i].name, *end));
-  }
-  return lines;
-}
-
-/// True if the intervals of a parameter in all models from logs that move have a value in common.
-bool agree(const std::vector<LogModel>& models, std::size_t continuous) {
-  double low = -INFINITY, high = INFINITY;
-  for (const LogModel& model : models) {
-    const std::vector<Interval> intervals = intervals_of(model);
-    if (intervals.empty()) continue;
-    low = std::max(low, intervals[continuous].low), high = std::min(high, intervals[continuous].high);
-  }
-  return low <= high;
 }
 
 Section parameters(const Study& study, const Problem& problem) {
@@ -80,19 +55,12 @@ Section parameters(const Study& study, const Problem& problem) {
     if (parameter.kind == Parameter::Kind::continuous) {
       row.push_back(interval_of(study.model, continuous));
       for (const LogModel& without : study.without) row.push_back(interval_of(without, continuous));
-      if (!agree(study.without, continuous))
-        section.notes.push_back(fmt::format("{}: the intervals without one log do not overlap", parameter.name));
       ++continuous;
     }
     section.table.push_back(row);
   }
   if (section.table.size() == 1) return {section.title, {}, {"the prior tunes none"}};
-  if (!moves(study.model))
-    section.notes.emplace_back("nothing moves but by errors of measurement, which the parameters follow");
-  if (study.model.learned.posterior)
-    for (const std::string& warning : identification::identifiability_warnings(*study.model.learned.posterior))
-      section.notes.push_back(warning);
-  for (const std::string& line : ends(study.model.zeros, problem.prior.space)) section.notes.push_back(line);
+  section.notes = parameter_warnings(study, problem);
   if (problem.logs.size() > study.left_out_logs.logs.size())
     section.notes.push_back(fmt::format("left out in turn are the first {} of {} logs", study.left_out_logs.logs.size(),
                                         problem.logs.size()));

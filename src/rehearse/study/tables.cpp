@@ -6,7 +6,7 @@
 
 #include "rehearse/core/names.hpp"
 #include "rehearse/files/csv.hpp"
-#include "rehearse/identification/identifiability.hpp"
+#include "rehearse/study/warnings.hpp"
 
 namespace rehearse::study {
 namespace {
@@ -118,11 +118,8 @@ std::string forecast_csv(const Study& study, const Task& task, const Forecasts& 
 
 std::string warnings_csv(const Study& study, const Problem& problem) {
   Csv csv({"kind", "text"});
-  if (study.model.learned.posterior)
-    for (const std::string& line : identification::identifiability_warnings(*study.model.learned.posterior))
-      csv.row({"parameters", line});
-  for (const Hint& hint : study.hints) csv.row({"logs", line_of(hint, problem.task)});
-  if (!study.odd_log.empty()) csv.row({"logs", study.odd_log});
+  for (const std::string& line : parameter_warnings(study, problem)) csv.row({"parameters", line});
+  for (const std::string& line : log_warnings(study, problem.task)) csv.row({"logs", line});
   for (const std::string& line : study.model.learned.notes) csv.row({"model", line});
   return csv.text();
 }

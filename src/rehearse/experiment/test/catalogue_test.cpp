@@ -94,5 +94,16 @@ TEST(Catalogue, ATextThatIsTooLongForAPathIsNoFileOfARobot) {
   EXPECT_FALSE(bytes.has_value());
 }
 
+TEST(Catalogue, ARobotsChecksumIsOfAllThatDescribesIt) {
+  const RobotFile robot{"mine", "mine.toml", "text", {{"a.py", "one"}}};
+  const std::string checksum = checksum_of(robot);
+  EXPECT_EQ(checksum.size(), 16);
+  EXPECT_EQ(checksum_of({"mine", "elsewhere/mine.toml", "text", robot.files}), checksum) << "not of where it is";
+  EXPECT_NE(checksum_of({"mine", "mine.toml", "other", robot.files}), checksum);
+  EXPECT_NE(checksum_of({"mine", "mine.toml", "text", {{"a.py", "two"}}}), checksum);
+  EXPECT_NE(checksum_of({"mine", "mine.toml", "text", {{"b.py", "one"}}}), checksum);
+  EXPECT_NE(checksum_of({"mine", "mine.toml", "text", {}}), checksum);
+}
+
 }  // namespace
 }  // namespace rehearse::experiment

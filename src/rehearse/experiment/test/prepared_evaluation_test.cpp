@@ -7,7 +7,7 @@
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/exported_policy.hpp"
-#include "rehearse/scenario/policy_options.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -76,7 +76,7 @@ TEST(PreparedEvaluation, SaysWhatIsWrong) {
 
 TEST(PreparedEvaluation, SettingsThatChangeNoEpisodeAreRefused) {
   const std::filesystem::path folder = line_folder();
-  const std::string known = "; what can be set: plant.gain, noise, breaks, evaluations";
+  const std::string known = "; what can be set: plant.gain, noise, breaks";
   const auto said = [&](const learners::OptionTexts& settings) {
     return fake::message_of<InvalidInput>([&] { prepared_of({.folder = folder, .settings = settings}); });
   };
@@ -93,23 +93,63 @@ TEST(PreparedEvaluation, SettingsThatChangeNoEpisodeAreRefused) {
   EXPECT_EQ(prepared.resolved.prior->space.values()(0), 0.7);
 }
 
-TEST(PreparedEvaluation, OptionsOfThePolicyAreRefused) {
-  struct WithPolicy final : fake::LineBuilder {
+/// The catalogue whose robot has the fields `more`, too.
+Catalogue catalogue_with(const Fields& more) {
+  struct WithMore final : fake::LineBuilder {
+    explicit WithMore(Fields fields) : more_(std::move(fields)) {}
     void fields(FieldVisitor& v) override {
       LineBuilder::fields(v);
-      options.fields(v);
+      more_(v);
     }
-    scenario::PolicyOptions options;
+    Fields more_;
   };
   Catalogue catalogue = fake::catalogue();
-  catalogue.scenarios = {{"line", [] { return std::make_unique<WithPolicy>(); }}};
+  catalogue.scenarios = {{"line", [more] { return std::make_unique<WithMore>(more); }}};
+  return catalogue;
+}
+
+TEST(PreparedEvaluation, OptionsOfPoliciesAndPriorsAreRefused) {
+  scenario::OdeOptions options;
+  Index substeps = 1;
+  const Catalogue catalogue = catalogue_with([&](FieldVisitor& v) {
+    v.integer("substeps", substeps, "of priors");
+    v.number("box_high", options.box_high, "of parameters that are learned");
+    options.policy.fields(v);
+  });
   const std::filesystem::path folder = fake::test_folder() / "run";
   start_run(catalogue, line_spec(1), folder, {});
-  EXPECT_EQ(fake::message_of<InvalidInput>([&] {
-              prepare_evaluation(read_run(catalogue, folder), {.folder = folder, .settings = {{"hidden", "3"}}});
-            }),
+  const auto said = [&](const learners::OptionTexts& settings, bool prior_plays) {
+    PastRun run = read_run(catalogue, folder);
+    if (prior_plays) run.resolved.scenario.make_plant = nullptr;
+    return fake::message_of<InvalidInput>([&] { prepare_evaluation(run, {.folder = folder, .settings = settings}); });
+  };
+  const std::string known = "; what can be set: plant.gain, noise, breaks";
+  EXPECT_EQ(said({{"substeps", "3"}, {"scenario.box_high", "3"}}, false),
+            "substeps changes no episode: it is an option of priors, and none plays the robot" + known +
+                "\nscenario.box_high changes no episode: it is an option of learning" + known);
+  EXPECT_EQ(said({{"substeps", "3"}}, true), "");
+  EXPECT_EQ(said({{"hidden", "3"}}, false),
             "hidden changes no episode: it is an option of the policy, which stays as it was learned; what can be set: "
-            "plant.gain, noise, breaks, evaluations");
+            "plant.gain, noise, breaks");
+}
+
+TEST(PreparedEvaluation, SettingsThatContradictTheRobotAreRefused) {
+  double ignored = 0;
+  bool newer = false;
+  const Catalogue catalogue = catalogue_with([&](FieldVisitor& v) {
+    v.number("ignored", ignored, "must be 0");
+    v.require(ignored == 0, "ignored: the plant measures by itself");
+    v.require(!newer, "noise: another condition, which is newer than the run");
+  });
+  const std::filesystem::path folder = fake::test_folder() / "run";
+  start_run(catalogue, line_spec(1), folder, {});
+  newer = true;
+  const PastRun run = read_run(catalogue, folder);
+  EXPECT_NO_THROW(prepare_evaluation(run, {.folder = folder})) << "what the run has already is no hindrance";
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] {
+              prepare_evaluation(run, {.folder = folder, .settings = {{"ignored", "0.1"}}});
+            }),
+            "ignored: the plant measures by itself");
 }
 
 TEST(PreparedEvaluation, TheRobotsFileIsReadOnceForAnEvaluation) {

@@ -251,8 +251,8 @@ std::vector<std::string> violations_with(const Options& options, const Task& tas
                        "out one of them");
     violations.require(
         prior_use(options) == PriorUse::none || task.initial_reward,
-        "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it "
-        "one (of those built in: initial_reward_width), or choose a learner without a prior");
+        "reward.learned = true, but the robot has no guess of the reward for the first search, on the prior: set "
+        "initial_reward_width, which some built-in robots have, or choose a learner without a prior");
   }
   return violations.list();
 }

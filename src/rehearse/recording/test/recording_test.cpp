@@ -121,6 +121,22 @@ TEST(Recording, CellsThatAreEmptyAreSaidToBeSo) {
   EXPECT_EQ(notes[0], "cells are empty at 1 of 40 control steps: numbers are interpolated there");
 }
 
+// Rows that are missing here and there are no loop that is too slow, and are not far from most control steps.
+TEST(Recording, CellsAndRowsThatAreMissingAreNoSlowLoop) {
+  const auto said = [](const std::string& text) {
+    const Recording read = read_recording(text, "log.csv", swing_task());
+    EXPECT_EQ(read.notes.size(), 1U);
+    EXPECT_LT(read.off_s, 1e-9);
+    return read.notes.at(0);
+  };
+  EXPECT_EQ(said(with_cell(swing_csv(), 9, 2, "")),
+            "cells are empty at 1 of 40 control steps: numbers are interpolated there")
+      << "of the first state, too";
+  std::string text = swing_csv();
+  for (const Index row : {9, 20, 31}) text = with_cell(with_cell(text, row, 2, ""), row, 3, "");
+  EXPECT_EQ(said(text), "no row with numbers is near 3 of 40 control steps: they are interpolated there");
+}
+
 TEST(Recording, WhatEditorsAndRobotsLeaveDoesNoHarm) {
   const Episode plain = read_recording(swing_csv(), "log.csv", swing_task()).episode;
   std::string windows = "\xEF\xBB\xBF" + swing_csv();

@@ -12,17 +12,6 @@
 namespace rehearse::study {
 namespace {
 
-struct Case {
-  Task task = swinging_task();
-  prior::Prior prior = swinging_prior();
-  std::vector<Log> logs = {swinging_log(1, 0.1), swinging_log(2, -0.08), swinging_log(3, 0.02)};
-  std::vector<Log> held_out = {swinging_log(4, -0.04)};
-  Options options;
-  Case() { options.zeros = "q", options.rows = 150, options.particles = 20; }
-  Problem problem() const { return {task, prior, logs, held_out}; }
-  Study run() const { return study_logs(problem(), options, serial_evaluator()); }
-};
-
 TEST(Study, PredictsHeldOutLogsInsideItsBands) {
   const Case swings;
   const Study study = swings.run();
@@ -69,21 +58,6 @@ TEST(Study, SaysWhatMovesNothing) {
   EXPECT_EQ(parameters.table[1][4], "nothing moves");  // without the first
   EXPECT_NE(parameters.table[1][5], "nothing moves");
   for (const std::string& note : parameters.notes) EXPECT_EQ(note.find("do not overlap"), std::string::npos) << note;
-}
-
-TEST(Study, SaysThatAnEncoderHasNoZero) {
-  Case swings;
-  swings.options.zeros = "";
-  swings.options.beyond = Beyond::nothing;
-  const Study study = swings.run();
-  ASSERT_FALSE(study.hints.empty());
-  const std::string line = line_of(study.hints[0], swings.task);
-  EXPECT_NE(line.find("zeros=q of `identify`"), std::string::npos) << line;
-  EXPECT_EQ(summary(study, swings.problem())[0].notes.back(), line);
-  bool in_tables = false;
-  for (const auto& [name, text] : csv_files(study, swings.problem()))
-    in_tables |= name == "warnings.csv" && text.find("zeros=q of `identify`") != std::string::npos;
-  EXPECT_TRUE(in_tables);
 }
 
 TEST(Study, WrongInputIsRefused) {

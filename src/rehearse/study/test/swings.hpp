@@ -51,4 +51,16 @@ inline Log swinging_log(std::uint64_t seed, double zero, double noise = 0.002, d
   return {"log " + std::to_string(seed), episode, episode.states};
 }
 
+/// A study of three such logs, and of a fourth that is forecast.
+struct Case {
+  Task task = swinging_task();
+  prior::Prior prior = swinging_prior();
+  std::vector<Log> logs = {swinging_log(1, 0.1), swinging_log(2, -0.08), swinging_log(3, 0.02)};
+  std::vector<Log> held_out = {swinging_log(4, -0.04)};
+  Options options;
+  Case() { options.zeros = "q", options.rows = 150, options.particles = 20; }
+  Problem problem() const { return {task, prior, logs, held_out}; }
+  Study run() const { return study_logs(problem(), options, serial_evaluator()); }
+};
+
 }  // namespace rehearse::study
