@@ -170,11 +170,12 @@ std::size_t common_groups(std::string_view a, std::string_view b) {
   return dot != std::string_view::npos ? dot + 1 : same.starts_with("--") ? 2 : 0;
 }
 
-/// True if `other` may have been meant: at most half of the letters of `name` are wrong, or one is short for the other.
+/// True if `other` may have been meant: at most a third of the letters of `name` are wrong, or one is short for the
+/// other.
 bool is_like(std::string_view name, std::string_view other) {
   const std::size_t common = common_groups(name, other);
   name.remove_prefix(common), other.remove_prefix(common);
-  const std::size_t most = (name.size() + 1) / 2;
+  const std::size_t most = (name.size() + 2) / 3;
   return lacks_groups(name, other) || other.starts_with(name) || name.starts_with(other) ||
          edit_distance(in_lower_case(name), in_lower_case(other)) <= most;
 }

@@ -1,5 +1,7 @@
 #include "rehearse/experiment/past_run.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -34,9 +36,16 @@ std::vector<std::pair<std::string, std::string>> PastRun::as_identified(
                                                             : history.trials.back().phi;
   std::vector<std::pair<std::string, std::string>> settings;
   std::size_t next = 0;
-  for (const Parameter& parameter : prior->space.all())
-    if (parameter.tunable() && next < phi.size())
-      settings.emplace_back("prior." + parameter.name, to_text(phi[next++]));
+  const auto is_set = [&](const std::string& name) {
+    const std::string of_that_prior = "prior." + prior->name + "." + name;
+    return std::ranges::any_of(
+        others, [&](const auto& each) { return each.first == "prior." + name || each.first == of_that_prior; });
+  };
+  for (const Parameter& parameter : prior->space.all()) {
+    if (!parameter.tunable() || next == phi.size()) continue;
+    const double identified = phi[next++];
+    if (!is_set(parameter.name)) settings.emplace_back("prior." + parameter.name, to_text(identified));
+  }
   settings.insert(settings.end(), others.begin(), others.end());
   return settings;
 }

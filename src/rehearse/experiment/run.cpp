@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/experiment/failures.hpp"
 #include "rehearse/experiment/open_run.hpp"
 #include "rehearse/experiment/participants.hpp"
+#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/rollout/execute.hpp"
@@ -25,6 +27,8 @@ void require_plant(const Resolved& resolved) {
 
 /// Throws InvalidInput, for instance where a program cannot be started.
 void require_ready(const Resolved& resolved) {
+  if (resolved.scenario.require_oracle && is_among(scenario::kOracle, split_names(resolved.spec.prior)))
+    resolved.scenario.require_oracle();
   const bool driven = resolved.spec.trials > 0;
   if (resolved.scenario.require_ready)
     resolved.scenario.require_ready(driven ? scenario::PlantUse::driven : scenario::PlantUse::left_alone);

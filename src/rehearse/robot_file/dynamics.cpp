@@ -44,9 +44,9 @@ bool misses_a_file(const std::string& error) {
   return false;
 }
 
-void require_with_files(const system::Program& program) {
+void require_with_files(const system::Program& program, system::ProgramUse use) {
   try {
-    system::require_program(program);
+    system::require_program(program, use);
   } catch (const InvalidInput& error) {
     if (!misses_a_file(error.what())) throw;
     throw InvalidInput(fmt::format(
@@ -201,10 +201,19 @@ std::function<void(scenario::PlantUse)> DynamicsMaker::require_ready() const {
   }
   if (always.empty() && driven.empty()) return nullptr;
   return [always, driven, folder = folder_](scenario::PlantUse plant) {
-    for (const system::Program& program : always) require_with_files(program);
+    for (const system::Program& program : always) require_with_files(program, system::ProgramUse::simulator);
     if (plant == scenario::PlantUse::left_alone) return;  // its program may move a robot as soon as it starts
-    for (const system::Program& program : driven) require_with_files(program);
+    for (const system::Program& program : driven) require_with_files(program, system::ProgramUse::plant);
   };
+}
+
+std::function<void()> DynamicsMaker::require_oracle() const {
+  for (const Dynamics& dynamics : robot_.dynamics)
+    if (is_of_the_plant(dynamics) && std::holds_alternative<ProgramSource>(dynamics.source))
+      return [of_plant = program(dynamics), folder = folder_] {
+        require_with_files(of_plant, system::ProgramUse::simulator);
+      };
+  return nullptr;
 }
 
 }  // namespace rehearse::robot_file

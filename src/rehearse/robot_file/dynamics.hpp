@@ -45,6 +45,10 @@ class DynamicsMaker {
   /// where it is driven; null if there are no such programs.
   std::function<void(scenario::PlantUse)> require_ready() const;
 
+  /// A function that throws InvalidInput, with the reason, if the plant's program is no simulator; null if it is no
+  /// program.
+  std::function<void()> require_oracle() const;
+
  private:
   system::Program program(const Dynamics& dynamics) const;
   bool is_of_a_prior(const Dynamics& dynamics) const;

@@ -87,6 +87,7 @@ class Builder final : public scenario::ScenarioBuilder {
     } else if (robot_.has_plant) {
       scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);
       scenario.make_plant = dynamics.plant(plant, around);
+      scenario.require_oracle = dynamics.require_oracle();
       scenario.oracle_lacks = oracle_lacks();
     }
     if (!around.measurement_std.isZero(0)) {

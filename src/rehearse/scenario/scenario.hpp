@@ -45,6 +45,7 @@ struct Scenario {
   // Throws InvalidInput with why a prior cannot be used, or the plant where it is driven; a plant that is left alone is
   // not even asked. Null: they can.
   std::function<void(PlantUse)> require_ready;
+  std::function<void()> require_oracle;  // throws InvalidInput with why the oracle cannot be used; null: it can
   std::function<std::vector<std::string>()> faults;  // of programs so far, a sentence each; null: there are none
   std::function<Index()> lost_rows;  // rows so far that programs may answer another time, but did not; null: none
   Vector stand_in_noise;  // standard deviations (dx) of what is measured where a prior plays the robot; empty: 0

@@ -88,9 +88,12 @@ bool Conversation::greet() {
   });
 }
 
+bool Conversation::require_changes() {
+  return has_changes_ || wrong("it does not understand the message \"change\", so it can be a plant but not a prior");
+}
+
 bool Conversation::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
-  if (!has_changes_)
-    return wrong("it does not understand the message \"change\", so it can be a plant but not a prior");
+  if (!require_changes()) return false;
   return doubles_ ? change_in_doubles(X, U, phi, dX) : change_in_json(X, U, phi, dX);
 }
 

@@ -23,6 +23,9 @@ class Conversation {
   bool declined() const { return declined_; }              // the last answer was an error, and all is well but for it
   bool has_episodes() const { return has_episodes_; }      // it can reset and step
 
+  /// False, and `problem` says so: it can be asked for no changes of state.
+  bool require_changes();
+
   /// Changes dX (n × dx); n from 1 to kMostRows. False: see `problem`.
   bool change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX);
   static constexpr Index kMostRows = 1024;

@@ -186,6 +186,9 @@ std::unique_ptr<Plant> make_program_plant(const Program& program, const Paramete
   return make_simulated_plant(motion, around);
 }
 
-void require_program(const Program& program) { begun(program); }
+void require_program(const Program& program, ProgramUse use) {
+  const auto conversation = begun(program);
+  if (use == ProgramUse::simulator && !conversation->require_changes()) throw InvalidInput(conversation->problem());
+}
 
 }  // namespace rehearse::system

@@ -38,7 +38,11 @@ std::unique_ptr<Plant> make_program_plant(const Program& program, const Paramete
                                           const StartAndSensors& around,
                                           std::shared_ptr<const ProgramSimulator> simulator = nullptr);
 
-/// Starts the program, says hello, and ends it. Throws InvalidInput with why that cannot be done.
-void require_program(const Program& program);
+/// The use of a program: as a plant, or as a simulator, which is asked for changes of state.
+enum class ProgramUse { plant, simulator };
+
+/// Starts the program, says hello, and ends it. Throws InvalidInput with why that cannot be done, or why the program is
+/// of no such use.
+void require_program(const Program& program, ProgramUse use);
 
 }  // namespace rehearse::system

@@ -50,6 +50,9 @@ TEST(PastRun, TheNewestModelIsWhatPlaysARobotWithoutAPlant) {
   run.history.trials.back().phi = {0.25};
   using Settings = std::vector<std::pair<std::string, std::string>>;
   EXPECT_EQ(run.as_identified(), (Settings{{"prior.gain", "0.25"}}));
+  EXPECT_EQ(run.as_identified({{"noise", "0.5"}}), (Settings{{"prior.gain", "0.25"}, {"noise", "0.5"}}));
+  for (const std::string gain : {"prior.gain", "prior.near.gain"})
+    EXPECT_EQ(run.as_identified({{gain, "3"}}), (Settings{{gain, "3"}})) << "a parameter has one value";
   run.history.asked = run.history.trials.back();
   run.history.asked->phi = {0.75};
   EXPECT_EQ(run.as_identified(), (Settings{{"prior.gain", "0.75"}})) << "that of the trial that is asked for";

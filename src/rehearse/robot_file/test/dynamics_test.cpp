@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/test/test_tools.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/robot_file/read.hpp"
@@ -94,6 +95,25 @@ TEST(Dynamics, TheProgramOfAPlantThatIsLeftAloneIsNotStarted) {
   EXPECT_EQ(started(of_both, PlantUse::driven), "model driver ");
   const std::string of_one = of_plant + "[prior.same]\ndynamics = \"driver\"\n";
   for (const PlantUse use : {PlantUse::left_alone, PlantUse::driven}) EXPECT_EQ(started(of_one, use), "driver ");
+}
+
+// It can be a plant, which the run drives, and would fail as a prior in the first trial.
+TEST(Dynamics, AProgramWithoutChangesIsNoPriorAndNoOracle) {
+  const auto file = [](const std::string&) -> std::optional<std::string> {
+    return "import json, sys\nsys.stdin.readline()\n"
+           "print(json.dumps({'rehearse': 1, 'messages': ['reset', 'step']}), flush=True)\n";
+  };
+  const std::string of_plant = example::with("[plant]", "[plant]\ndynamics = \"driver\"") +
+                               "[dynamics.driver]\nprogram = [\"python3\", \"driver.py\"]\n";
+  constexpr const char* kWhy = "it does not understand the message \"change\", so it can be a plant but not a prior";
+  const scenario::Scenario scenario = builder(of_plant, "swing.toml", file)->build();
+  EXPECT_NO_THROW(scenario.require_ready(scenario::PlantUse::driven));
+  const std::string of_oracle = message_of<InvalidInput>([&] { scenario.require_oracle(); });
+  EXPECT_NE(of_oracle.find(kWhy), std::string::npos) << of_oracle;
+  const scenario::Scenario both =
+      builder(of_plant + "[prior.same]\ndynamics = \"driver\"\n", "swing.toml", file)->build();
+  const std::string of_prior = message_of<InvalidInput>([&] { both.require_ready(scenario::PlantUse::driven); });
+  EXPECT_NE(of_prior.find(kWhy), std::string::npos) << of_prior;
 }
 
 constexpr const char* kTwoRods = R"xml(<mujoco>

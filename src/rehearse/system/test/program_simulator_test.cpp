@@ -167,7 +167,7 @@ TEST(Program, OneThatCannotBeSpokenWithIsRefusedWithWhy) {
   const auto why = [](Program program, double start_s = 20) -> std::string {
     program.start_s = start_s;
     try {
-      require_program(program);
+      require_program(program, ProgramUse::plant);
     } catch (const InvalidInput& error) {
       return error.what();
     }
