@@ -90,7 +90,7 @@ expect 2 "plant.m1 = -1, must be > 0" 1 learn pendubot --learner gp-mi --set pla
 expect 2 "box_low = 2, must be < box_high = 1.2" 1 learn pendubot --learner gp-mi --set box_low=2
 expect 2 "l2 = 99, must be between" 1 learn pendubot --learner gp-mi --set prior.l2=99
 expect 2 "--seed = x" 4 learn pendubot --learner gp-mi --seed x --trials -1 --set colour=red --prior usful
-expect 2 "the scenario gives no initial_reward" 1 learn pendubot --learner gp-mi --set reward.learned=true
+expect 2 "the robot has no guess of the reward" 1 learn pendubot --learner gp-mi --set reward.learned=true
 expect 2 "policy = mlp has no analytic moments, which pilco needs: choose policy = rbf (--set policy=rbf)" 1 \
   learn cartpole --learner pilco --set policy=mlp
 expect 2 "unknown preset 'as-publisht', did you mean 'as-published'? (known: as-published)" 1 \
@@ -268,7 +268,7 @@ printf 'format = 1\nscenario = "pendubot"\nlearners = "mi"\nseeds = 1\ntrails = 
 expect 2 "wrong.toml: line 5: unknown key 'trails', did you mean 'trials'?" 2 campaign wrong.toml --out wrong
 expect 2 "wrong.toml: line 7: unknown option 'plant.b9', did you mean 'plant.b" 2 campaign wrong.toml --out wrong
 printf 'format = 1\nscenario = "pendubot"\nlearners = ["black-drops", "mi"]\nseeds = 1\n[set]\nreward.learned = true\n' >wrong.toml
-expect 2 "wrong.toml: line 6: reward.learned = true, but the scenario gives no initial_reward" 1 campaign wrong.toml --dry-run
+expect 2 "wrong.toml: line 6: reward.learned = true, but the robot has no guess of the reward" 1 campaign wrong.toml --dry-run
 [ -e wrong ] && fail "a wrong campaign file leaves a folder"
 ln -s "$campaigns/../results" results  # where archives are
 "$program" list | sed -n '/^Not built/,/^$/p' >not-built
