@@ -5,14 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/experiment/priors.hpp"
+
 namespace rehearse::campaign {
 namespace {
-
-/// The name without "PRIOR." in "prior.PRIOR.NAME".
-std::string without_prior(const std::string& key, const std::string& prior) {
-  const std::string prefix = fmt::format("prior.{}.", prior);
-  return key.starts_with(prefix) ? "prior." + key.substr(prefix.size()) : key;
-}
 
 /// An option of the file, and which part of it gives it.
 struct Given {
@@ -65,7 +61,7 @@ class Overlaps {
 
 std::vector<std::string> reached_options(const experiment::Spec& complete, const std::string& key) {
   const bool several = complete.prior.find(',') != std::string::npos;
-  const std::string wanted = several ? key : without_prior(key, complete.prior);
+  const std::string wanted = several ? key : experiment::without_prior(key, complete.prior);
   const auto is_reached = [&](const std::string& name) {
     if (name == wanted || name == "scenario." + key || name == "learner." + key) return true;
     if (!several || !name.starts_with("prior.") || !key.starts_with("prior.")) return false;

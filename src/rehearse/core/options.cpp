@@ -145,18 +145,19 @@ class Setter final : public FieldVisitor {
   std::string_view name_, text_;
 };
 
+/// Letters that are missing, too many, or others, and pairs of neighbours that changed places.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+  std::vector<std::vector<std::size_t>> mistakes(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      std::size_t& least = mistakes[i][j];
+      least = i == 0 || j == 0 ? i + j : mistakes[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+      if (i > 0) least = std::min(least, mistakes[i - 1][j] + 1);
+      if (j > 0) least = std::min(least, mistakes[i][j - 1] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        least = std::min(least, mistakes[i - 2][j - 2] + 1);
     }
-  }
-  return row.back();
+  return mistakes.back().back();
 }
 
 bool lacks_groups(std::string_view name, std::string_view whole) { return whole.ends_with(fmt::format(".{}", name)); }

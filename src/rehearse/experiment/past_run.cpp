@@ -7,6 +7,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/experiment/kept_robot.hpp"
+#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/policy/by_name.hpp"
 
@@ -36,15 +37,14 @@ std::vector<std::pair<std::string, std::string>> PastRun::as_identified(
                                                             : history.trials.back().phi;
   std::vector<std::pair<std::string, std::string>> settings;
   std::size_t next = 0;
-  const auto is_set = [&](const std::string& name) {
-    const std::string of_that_prior = "prior." + prior->name + "." + name;
-    return std::ranges::any_of(
-        others, [&](const auto& each) { return each.first == "prior." + name || each.first == of_that_prior; });
+  const auto is_set = [&](const std::string& key) {
+    return std::ranges::any_of(others, [&](const auto& each) { return without_prior(each.first, prior->name) == key; });
   };
   for (const Parameter& parameter : prior->space.all()) {
     if (!parameter.tunable() || next == phi.size()) continue;
     const double identified = phi[next++];
-    if (!is_set(parameter.name)) settings.emplace_back("prior." + parameter.name, to_text(identified));
+    if (const std::string key = "prior." + parameter.name; !is_set(key))
+      settings.emplace_back(key, to_text(identified));
   }
   settings.insert(settings.end(), others.begin(), others.end());
   return settings;

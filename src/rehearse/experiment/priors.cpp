@@ -56,6 +56,11 @@ std::string unknown_option(const std::string& key, const std::vector<std::string
                      meant.empty() ? fmt::format(": `list` of {} names all, in Python `rehearse.options`", of) : meant);
 }
 
+std::string without_prior(const std::string& key, const std::string& prior) {
+  const std::string prefix = fmt::format("prior.{}.", prior);
+  return key.starts_with(prefix) ? "prior." + key.substr(prefix.size()) : key;
+}
+
 std::vector<std::string> split_names(const std::string& text) {
   std::vector<std::string> names;
   if (text.empty()) return names;

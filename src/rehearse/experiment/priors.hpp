@@ -14,6 +14,9 @@ namespace rehearse::experiment {
 /// "a,b,c" → its names; empty text: none.
 std::vector<std::string> split_names(const std::string& text);
 
+/// "prior.NAME" of "prior.PRIOR.NAME", where that is the prior; another key as it is.
+std::string without_prior(const std::string& key, const std::string& prior);
+
 /// The value of tunable parameter `i` for people: where `names` are several priors the first is the chosen one, whose
 /// name it is.
 std::string phi_text(const std::string& names, std::size_t i, double value);

@@ -271,6 +271,7 @@ TEST(Closest, IsTheNameMeant) {
   EXPECT_EQ(did_you_mean("mass", {"m", "l"}), ", did you mean 'm'?");
   EXPECT_EQ(did_you_mean("lr", {"model.lr"}), ", did you mean 'model.lr'?");
   EXPECT_EQ(did_you_mean("stiffness", names), "") << "nothing is like it";
+  EXPECT_EQ(did_you_mean("ste", {"set"}), ", did you mean 'set'?") << "letters changed places";
   EXPECT_EQ(did_you_mean("torque", {"toggle", "porch"}), "") << "half of its letters are others";
   EXPECT_EQ(suggestions("sed", {"seed", "prior"}), ", did you mean 'seed'? (known: seed, prior)");
   EXPECT_EQ(suggestions("stiffness", {"seed", "prior"}), " (known: seed, prior)");

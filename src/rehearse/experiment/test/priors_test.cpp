@@ -9,6 +9,13 @@ namespace {
 
 using specs::complaint, specs::Options, specs::spec_of;
 
+TEST(WithoutPrior, LeavesOutTheNameOfThatPriorAlone) {
+  EXPECT_EQ(without_prior("prior.near.gain", "near"), "prior.gain");
+  EXPECT_EQ(without_prior("prior.far.gain", "near"), "prior.far.gain");
+  EXPECT_EQ(without_prior("prior.gain", "near"), "prior.gain");
+  EXPECT_EQ(without_prior("noise", "near"), "noise");
+}
+
 TEST(ChosenPriors, ANameIsSetInEveryPriorThatHasIt) {
   Violations violations;
   ChosenPriors chosen(fake::LineBuilder().build(), {"near", "far"}, violations);
