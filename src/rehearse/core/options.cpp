@@ -144,7 +144,7 @@ class Setter final : public FieldVisitor {
   std::string_view name_, text_;
 };
 
-/// Letters that are missing, too many, or others, and pairs of neighbours that changed places.
+/// The number of letters that are missing, too many, or others, and of neighbours that changed places.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> mistakes(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i)

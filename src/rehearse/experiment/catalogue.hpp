@@ -31,7 +31,7 @@ struct RobotFile {
   std::vector<scenario::NamedFile> files;  // that it names
 };
 
-/// Of its text, and of the names and bytes of its files, where there are some.
+/// A checksum of its text, and of the names and bytes of its files, where there are some.
 std::string checksum_of(const RobotFile& robot);
 
 /// Reads the files of a folder that a robot's file names.
