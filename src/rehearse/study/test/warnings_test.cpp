@@ -29,13 +29,16 @@ TEST(Warnings, AnEncoderWithoutZeroIsOfTheLogs) {
   swings.options.zeros = "";
   swings.options.beyond = Beyond::nothing;
   const Study study = swings.run();
+  ASSERT_FALSE(study.hints.empty());
   const std::vector<std::string> lines = log_warnings(study, swings.task);
   ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0], line_of(study.hints[0], swings.task));
+  EXPECT_EQ(summary(study, swings.problem())[0].notes.back(), lines[0]);
   EXPECT_NE(lines[0].find("zeros=q of `identify`"), std::string::npos) << lines[0];
   expect_said(lines, "logs,", summary(study, swings.problem())[0], study, swings.problem());
 }
 
-// What else would be said of parameters, such as that one would be best at a bound, would be of noise.
+// Parameters follow the noise there, so that one would be best at a bound, for instance, says nothing of the robot.
 TEST(Warnings, OfARobotAtRestNothingElseIsSaidThanThatNothingMoves) {
   Case swings;
   swings.logs = {swinging_log(1, 0, 0.002, 0), swinging_log(2, 0, 0.002, 0)};
